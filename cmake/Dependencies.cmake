@@ -1,0 +1,21 @@
+# Every package the project uses, with the Debian 12 package that brings it. scripts/install-deps reads the
+# "# debian:" lines of this file, so a dependency is named in one place only.
+
+# CONFIG: CGAL ships a FindEigen3 of its own that would hide the Eigen3::Eigen target.
+find_package(Eigen3 3.4 CONFIG REQUIRED)                             # debian: libeigen3-dev
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs)  # debian: libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+find_package(CGAL 5.5 REQUIRED)                                      # debian: libcgal-dev
+find_package(Boost 1.74 REQUIRED COMPONENTS filesystem system)       # debian: libboost-dev libboost-filesystem-dev libboost-system-dev
+find_package(assimp 5.2 REQUIRED)                                    # debian: libassimp-dev
+find_package(spdlog 1.10 REQUIRED)                                   # debian: libspdlog-dev
+find_package(CLI11 2.1 REQUIRED)                                     # debian: libcli11-dev
+find_package(nlohmann_json 3.11 REQUIRED)                            # debian: nlohmann-json3-dev
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)                 # debian: libtinygltf-dev
+find_package(embree 3.13 REQUIRED)                                   # debian: libembree-dev
+if(VITRINE_TESTS)
+  find_package(GTest REQUIRED)                                       # debian: libgtest-dev libgmock-dev
+endif()
+if(VITRINE_BENCHMARKS)
+  find_package(benchmark REQUIRED)                                   # debian: libbenchmark-dev
+endif()

@@ -1,0 +1,20 @@
+# Debian keeps OpenCVConfig.cmake in libopencv-dev, which pulls in some 150 packages (VTK, Qt, HDF5, ...). The three
+# modules used here come with slim packages of their own, so they are found directly.
+find_path(OpenCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
+set(required OpenCV_INCLUDE_DIR)
+foreach(module IN LISTS OpenCV_FIND_COMPONENTS)
+  find_library(OpenCV_${module}_LIBRARY opencv_${module})
+  list(APPEND required OpenCV_${module}_LIBRARY)
+  if(OpenCV_${module}_LIBRARY AND NOT TARGET opencv_${module})
+    add_library(opencv_${module} UNKNOWN IMPORTED)
+    set_target_properties(opencv_${module} PROPERTIES IMPORTED_LOCATION ${OpenCV_${module}_LIBRARY}
+      INTERFACE_INCLUDE_DIRECTORIES ${OpenCV_INCLUDE_DIR})
+  endif()
+endforeach()
+if(OpenCV_INCLUDE_DIR)
+  file(STRINGS ${OpenCV_INCLUDE_DIR}/opencv2/core/version.hpp parts REGEX "#define CV_VERSION_(MAJOR|MINOR) ")
+  string(REGEX REPLACE "[^0-9;]" "" parts "${parts}")
+  list(JOIN parts "." OpenCV_VERSION)
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenCV REQUIRED_VARS ${required} VERSION_VAR OpenCV_VERSION)

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+
+#include "vitrine/model/body.hpp"
+#include "vitrine/model/result.hpp"
+
+namespace vitrine {
+
+/// The paper's eight measurements [m].
+struct Measurements {
+  std::string sex = "woman";  ///< "woman" or "man"
+  double height = 1.720;
+  double bust = 0.880;
+  double under_bust = 0.750;
+  double waist = 0.680;
+  double hip = 0.940;
+  double inside_leg = 0.815;
+  double arm = 0.575;         ///< shoulder point to wrist
+  double neck_base = 0.365;
+};
+
+struct MannequinOptions {
+  double surface_spacing = 0.012;  ///< [m] marching grid of the built-in body
+  double arm_angle_deg = 42;       ///< [degree] of the arms from the vertical (A-pose)
+};
+
+struct VoxelOptions {
+  double spacing = 0.006;  ///< [m] voxel edge
+  double margin = 0.08;    ///< [m] kept free around the body
+};
+
+/// Built-in parametric body. Errors (65): IMPLAUSIBLE_MEASUREMENTS naming the measurement and the range that would work.
+Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options = {});
+
+/// Any watertight OBJ, GLB or PLY in metres, +Y up (guessed: a height of 140-220 is centimetres, 1400-2200 millimetres);
+/// landmarks and girths are found on the mesh. Errors: missing (66), unusable (65: NOT_A_MESH, NOT_WATERTIGHT, NOT_A_BODY).
+Result<Mannequin> import_mannequin(const std::string& path);
+
+/// Signed distance on voxels around the body (paper III.C). Errors (65): NOT_WATERTIGHT, TOO_LARGE.
+Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options = {});
+
+}  // namespace vitrine

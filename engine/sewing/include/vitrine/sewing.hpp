@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vitrine/model/body.hpp"
+#include "vitrine/model/garment_template.hpp"
+#include "vitrine/model/panel.hpp"
+#include "vitrine/model/result.hpp"
+
+namespace vitrine {
+
+struct SewingOptions {
+  double residual = 1e-3;          ///< [-] stop: sum of |net force| / weight on the last level
+  double coarse_residual = 3e-2;   ///< [-] the same on all other levels
+  int max_iterations = 60'000;     ///< per level; a budget of work, never of seconds
+  double gravity = 9.81;           ///< [m/s^2]
+  double offset = 0.004;           ///< [m] skin offset: cloth surface to body
+  double max_weight_strain = 1e-3; ///< [-] k is capped where the weight strain falls below this (reported)
+  bool friction = true;
+  bool bending = true;
+  /// Called now and then with level, iteration and residual; may be empty.
+  std::function<void(int, int, double)> progress;
+};
+
+struct LevelFigures {
+  int nodes = 0, iterations = 0;
+  double residual = 0;
+  double change_mean_mm = 0, change_max_mm = 0;  ///< how far this level moved the one before
+};
+
+/// The garment at rest, and how much to believe it.
+struct Drape {
+  std::string status;  ///< "OK", NOT_CONVERGED, SEAM_OPEN, NOT_SUPPORTED, OVERSTRETCHED, INSIDE_BODY
+  std::string detail;  ///< one sentence when the status is not OK
+  std::vector<std::vector<Vec3>> positions;         ///< [m] per panel, per node of the last level; sewn nodes coincide
+  std::vector<std::vector<std::uint32_t>> welded;   ///< per panel, per node: index of the sewn node
+  double residual = 0;             ///< recomputed independently of the solver's own stop test
+  double seam_gap_mm_max = 0;      ///< largest distance of two sewn partners just before they were welded
+  double penetration_mm_max = 0;   ///< deepest node or triangle middle inside the body surface
+  double strain_p99 = 0;           ///< [-] 99th percentile of |edge length / rest - 1|
+  double strain_max = 0;
+  double stiffness_cap = 0;        ///< [N/m] effective limit of k; 0 = not capped
+  double energy = 0;               ///< [J]
+  std::vector<LevelFigures> levels;
+  std::vector<std::string> modelled, skipped;  ///< effects, with the reason
+};
+
+/// Draws paired nodes together until they meet, welds them, and relaxes the mass-spring cloth (paper III.C, eq. (2)) to
+/// rest on the body, coarse to fine. `placed` belongs to levels.front(); each later level starts from the one before.
+/// Errors (64): a fabric that cannot hold itself (predicted weight strain > 100 %), negative or non-finite k, m;
+/// (65): nothing supports the garment.
+Result<Drape> sew_and_drape(std::span<const Pattern> levels, const std::vector<std::vector<Vec3>>& placed,
+                            const Fabric& fabric, const DistanceField& body, const SewingOptions& options = {});
+
+}  // namespace vitrine
