@@ -9,20 +9,20 @@
 namespace vitrine {
 
 struct MeshOptions {
-  double edge_length = 0.02;      ///< [m] target
-  int max_nodes = 200'000;        ///< refuse outlines that would need more (TOO_MANY_NODES)
-  int max_sweeps = 200;           ///< magnet relaxation
+  double edge_length = 0.02;  ///< [m] target
+  int max_nodes = 200'000;    ///< refuse outlines that would need more (TOO_MANY_NODES)
+  int max_sweeps = 200;       ///< magnet relaxation
 };
 
 struct MeshStats {
   int nodes = 0, triangles = 0;
   double min_angle_deg = 0, mean_min_angle_deg = 0;
-  double flat_share = 0;          ///< [-] triangles with edge ratio < 1.3
-  double edge_cv = 0;             ///< [-] coefficient of variation of edge lengths
+  double flat_share = 0;  ///< [-] triangles with edge ratio < 1.3
+  double edge_cv = 0;     ///< [-] coefficient of variation of edge lengths
 };
 
-/// Uniform mesh of a simple polygon (paper III.B): magnet node insertion, constrained Delaunay triangulation, edge-ratio
-/// rules. The outline's own nodes and segments are kept exactly: nodes [0, outline.size()) are the outline.
+/// Uniform mesh of a simple polygon (paper III.B): magnet node insertion, constrained Delaunay triangulation,
+/// edge-ratio rules. The outline's own nodes and segments are kept exactly: nodes [0, outline.size()) are the outline.
 /// Edge ratio = (sum of the two shorter edges) / longest: 1 flat, 2 equilateral.
 /// Errors (65): DEGENERATE_OUTLINE (self-crossing, repeated points, zero area, non-finite), TOO_MANY_NODES.
 Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options = {});
