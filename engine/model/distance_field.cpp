@@ -34,8 +34,9 @@ double DistanceField::distance(const Vec3& p, Vec3& gradient) const {
   const double c0 = c00 + y * (c10 - c00), c1 = c01 + y * (c11 - c01);
   gradient.z() = (c1 - c0) / spacing;
   gradient.y() = ((1 - z) * (c10 - c00) + z * (c11 - c01)) / spacing;
-  gradient.x() = ((1 - z) * ((1 - y) * (c100 - c000) + y * (c110 - c010)) +
-                  z * ((1 - y) * (c101 - c001) + y * (c111 - c011))) / spacing;
+  gradient.x() =
+      ((1 - z) * ((1 - y) * (c100 - c000) + y * (c110 - c010)) + z * ((1 - y) * (c101 - c001) + y * (c111 - c011))) /
+      spacing;
   double d = c0 + z * (c1 - c0);
   const double out = beyond.norm();
   if (out > 0) {

@@ -13,46 +13,46 @@ namespace vitrine {
 
 struct FeatureOptions {
   Side side = Side::front;
-  std::string neckline = "auto";   ///< id of a neckline, or "auto": chosen by the ratio rule
-  double smoothing = 0.004;        ///< [-] arc over which the chain code is smoothed, share of the box diagonal
-  double min_turn_deg = 22;        ///< [degree] turn within that arc that makes a run of candidates
+  std::string neckline = "auto";  ///< id of a neckline, or "auto": chosen by the ratio rule
+  double smoothing = 0.004;       ///< [-] arc over which the chain code is smoothed, share of the box diagonal
+  double min_turn_deg = 22;       ///< [degree] turn within that arc that makes a run of candidates
 };
 
 /// A silhouette point of high curvature: the best of its run (paper III.A).
 struct Candidate {
-  Vec2 pixel;            ///< [px] in the front frame
-  double turn_deg = 0;   ///< signed, > 0 convex
+  Vec2 pixel;           ///< [px] in the front frame
+  double turn_deg = 0;  ///< signed, > 0 convex
   int contour_index = 0;
 };
 
 struct FeaturePoint {
-  std::string name;      ///< the template's name
-  std::string landmark;  ///< Table I body landmark, may be empty
-  Vec2 pixel;            ///< [px] in the front frame (of Photo::rgb)
-  std::string origin;    ///< "candidate" (snapped), "template" (placed by the template on the contour), "neckline"
-  double confidence = 0; ///< [-] 0..1
-  int contour_index = 0; ///< its place on Features::contour
+  std::string name;       ///< the template's name
+  std::string landmark;   ///< Table I body landmark, may be empty
+  Vec2 pixel;             ///< [px] in the front frame (of Photo::rgb)
+  std::string origin;     ///< "candidate" (snapped), "template" (placed by the template on the contour), "neckline"
+  double confidence = 0;  ///< [-] 0..1
+  int contour_index = 0;  ///< its place on Features::contour
 };
 
 struct NecklineChoice {
-  std::string id;            ///< neckline plugin's id; empty when the garment has no neck edge
-  double ratio = 0;          ///< [-] foreground / background pixels of the neck area
-  bool forced = false;       ///< chosen by the user
-  Vec2 low = Vec2::Zero();   ///< [px] lowest point of this panel's neckline
-  bool inside_found = false; ///< an inside of the back was seen above the front neckline and cut off this panel
+  std::string id;             ///< neckline plugin's id; empty when the garment has no neck edge
+  double ratio = 0;           ///< [-] foreground / background pixels of the neck area
+  bool forced = false;        ///< chosen by the user
+  Vec2 low = Vec2::Zero();    ///< [px] lowest point of this panel's neckline
+  bool inside_found = false;  ///< an inside of the back was seen above the front neckline and cut off this panel
 };
 
 /// What the paper calls the feature points, with the outline they lie on.
 struct Features {
-  std::vector<Vec2> contour;          ///< [px] closed outline of THIS panel, clockwise in the picture, simple; the inside of
-                                      ///< the back is cut off a front panel, sleeves lying on the body are cut free
+  std::vector<Vec2> contour;  ///< [px] closed outline of THIS panel, clockwise in the picture, simple; the inside of
+                              ///< the back is cut off a front panel, sleeves lying on the body are cut free
   std::vector<FeaturePoint> points;   ///< one per template feature, in the template's order
   std::vector<Candidate> candidates;  ///< all candidates, for the debug overlay
   NecklineChoice neckline;
-  std::string pose;                   ///< name of the template pose that fitted
-  double score = 0;                   ///< [-] 0..1, how well the template explains the silhouette
-  double tilt_deg = 0;                ///< [degree] of the garment in the picture, removed by the panels room
-  Image labels;                       ///< three-label image after the inside was found, size of the photo
+  std::string pose;     ///< name of the template pose that fitted
+  double score = 0;     ///< [-] 0..1, how well the template explains the silhouette
+  double tilt_deg = 0;  ///< [degree] of the garment in the picture, removed by the panels room
+  Image labels;         ///< three-label image after the inside was found, size of the photo
   std::vector<std::string> warnings;
 };
 

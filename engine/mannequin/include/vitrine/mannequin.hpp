@@ -16,7 +16,7 @@ struct Measurements {
   double waist = 0.680;
   double hip = 0.940;
   double inside_leg = 0.815;
-  double arm = 0.575;         ///< shoulder point to wrist
+  double arm = 0.575;  ///< shoulder point to wrist
   double neck_base = 0.365;
 };
 
@@ -30,11 +30,13 @@ struct VoxelOptions {
   double margin = 0.08;    ///< [m] kept free around the body
 };
 
-/// Built-in parametric body. Errors (65): IMPLAUSIBLE_MEASUREMENTS naming the measurement and the range that would work.
+/// Built-in parametric body. Errors (65): IMPLAUSIBLE_MEASUREMENTS naming the measurement and the range that would
+/// work.
 Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options = {});
 
-/// Any watertight OBJ, GLB or PLY in metres, +Y up (guessed: a height of 140-220 is centimetres, 1400-2200 millimetres);
-/// landmarks and girths are found on the mesh. Errors: missing (66), unusable (65: NOT_A_MESH, NOT_WATERTIGHT, NOT_A_BODY).
+/// Any watertight OBJ, GLB or PLY in metres, +Y up (guessed: a height of 140-220 is centimetres, 1400-2200
+/// millimetres); landmarks and girths are found on the mesh. Errors: missing (66), unusable (65: NOT_A_MESH,
+/// NOT_WATERTIGHT, NOT_A_BODY).
 Result<Mannequin> import_mannequin(const std::string& path);
 
 /// Signed distance on voxels around the body (paper III.C). Errors (65): NOT_WATERTIGHT, TOO_LARGE.

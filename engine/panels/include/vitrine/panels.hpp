@@ -19,10 +19,10 @@ struct PanelOptions {
 /// Both panels with their outlines resampled, and the seam pairs between them; meshes are still empty.
 struct Panels {
   Panel front, back;
-  std::vector<NodePair> pairs;      ///< panel index 0 = front, 1 = back; one to one along every seam, ends included
+  std::vector<NodePair> pairs;  ///< panel index 0 = front, 1 = back; one to one along every seam, ends included
   double metres_per_pixel_front = 0, metres_per_pixel_back = 0;
-  std::string scale_source;         ///< "chest", "length" or "ease"
-  double worst_seam_ratio = 1;      ///< [-] longer / shorter of the two flat edges of a seam
+  std::string scale_source;     ///< "chest", "length" or "ease"
+  double worst_seam_ratio = 1;  ///< [-] longer / shorter of the two flat edges of a seam
   std::vector<std::string> warnings;
 };
 

@@ -9,21 +9,21 @@
 namespace vitrine {
 
 struct PhotoOptions {
-  std::uint64_t max_bytes = 256u << 20;     ///< [byte] largest file that is read
-  std::uint64_t max_pixels = 80'000'000;    ///< [px] checked against the header before anything is decoded
-  int min_side = 64;                        ///< [px] smaller photos are refused (TOO_SMALL)
-  int max_side = 2400;                      ///< [px] larger photos are reduced to this after decoding
-  bool mirror = false;                      ///< flip left/right into the front frame (back photos)
+  std::uint64_t max_bytes = 256u << 20;   ///< [byte] largest file that is read
+  std::uint64_t max_pixels = 80'000'000;  ///< [px] checked against the header before anything is decoded
+  int min_side = 64;                      ///< [px] smaller photos are refused (TOO_SMALL)
+  int max_side = 2400;                    ///< [px] larger photos are reduced to this after decoding
+  bool mirror = false;                    ///< flip left/right into the front frame (back photos)
 };
 
 /// A decoded photo: upright by EXIF, RGB, in the front frame (see garment_template.hpp).
 struct Photo {
   std::string path;
-  Image rgb;            ///< 3 channels
-  Image alpha;          ///< 1 channel, same size; empty when the file has none or it is opaque everywhere
-  Image mask;           ///< 1 channel of Label values given by the shop; empty when none was given
+  Image rgb;    ///< 3 channels
+  Image alpha;  ///< 1 channel, same size; empty when the file has none or it is opaque everywhere
+  Image mask;   ///< 1 channel of Label values given by the shop; empty when none was given
   int source_width = 0, source_height = 0;  ///< [px] as displayed (after EXIF), before any reduction
-  double scale = 1;     ///< this picture's pixels per source pixel
+  double scale = 1;                         ///< this picture's pixels per source pixel
   bool mirrored = false;
 };
 

@@ -15,8 +15,8 @@ struct PreviewOptions {
   double frame_bottom = -1, frame_top = -1;  ///< [m] vertical extent shown; both < 0 = the meshes' own extent
 };
 
-/// A lit picture of front, three-quarter and back view: soft key light and ambient occlusion by Embree rays; the same input
-/// gives the same bytes.
+/// A lit picture of front, three-quarter and back view: soft key light and ambient occlusion by Embree rays; the same
+/// input gives the same bytes.
 Result<Image> render_preview(std::span<const RenderMesh> meshes, const PreviewOptions& options = {});
 
 }  // namespace vitrine

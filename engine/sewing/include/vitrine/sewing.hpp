@@ -13,12 +13,12 @@
 namespace vitrine {
 
 struct SewingOptions {
-  double residual = 1e-3;          ///< [-] stop: sum of |net force| / weight on the last level
-  double coarse_residual = 3e-2;   ///< [-] the same on all other levels
-  int max_iterations = 60'000;     ///< per level; a budget of work, never of seconds
-  double gravity = 9.81;           ///< [m/s^2]
-  double offset = 0.004;           ///< [m] skin offset: cloth surface to body
-  double max_weight_strain = 1e-3; ///< [-] k is capped where the weight strain falls below this (reported)
+  double residual = 1e-3;           ///< [-] stop: sum of |net force| / weight on the last level
+  double coarse_residual = 3e-2;    ///< [-] the same on all other levels
+  int max_iterations = 60'000;      ///< per level; a budget of work, never of seconds
+  double gravity = 9.81;            ///< [m/s^2]
+  double offset = 0.004;            ///< [m] skin offset: cloth surface to body
+  double max_weight_strain = 1e-3;  ///< [-] k is capped where the weight strain falls below this (reported)
   bool friction = true;
   bool bending = true;
   /// Called now and then with level, iteration and residual; may be empty.
@@ -35,15 +35,15 @@ struct LevelFigures {
 struct Drape {
   std::string status;  ///< "OK", NOT_CONVERGED, SEAM_OPEN, NOT_SUPPORTED, OVERSTRETCHED, INSIDE_BODY
   std::string detail;  ///< one sentence when the status is not OK
-  std::vector<std::vector<Vec3>> positions;         ///< [m] per panel, per node of the last level; sewn nodes coincide
-  std::vector<std::vector<std::uint32_t>> welded;   ///< per panel, per node: index of the sewn node
-  double residual = 0;             ///< recomputed independently of the solver's own stop test
-  double seam_gap_mm_max = 0;      ///< largest distance of two sewn partners just before they were welded
-  double penetration_mm_max = 0;   ///< deepest node or triangle middle inside the body surface
-  double strain_p99 = 0;           ///< [-] 99th percentile of |edge length / rest - 1|
+  std::vector<std::vector<Vec3>> positions;        ///< [m] per panel, per node of the last level; sewn nodes coincide
+  std::vector<std::vector<std::uint32_t>> welded;  ///< per panel, per node: index of the sewn node
+  double residual = 0;                             ///< recomputed independently of the solver's own stop test
+  double seam_gap_mm_max = 0;     ///< largest distance of two sewn partners just before they were welded
+  double penetration_mm_max = 0;  ///< deepest node or triangle middle inside the body surface
+  double strain_p99 = 0;          ///< [-] 99th percentile of |edge length / rest - 1|
   double strain_max = 0;
-  double stiffness_cap = 0;        ///< [N/m] effective limit of k; 0 = not capped
-  double energy = 0;               ///< [J]
+  double stiffness_cap = 0;  ///< [N/m] effective limit of k; 0 = not capped
+  double energy = 0;         ///< [J]
   std::vector<LevelFigures> levels;
   std::vector<std::string> modelled, skipped;  ///< effects, with the reason
 };

@@ -10,15 +10,15 @@
 namespace vitrine {
 
 struct SilhouetteOptions {
-  int working_side = 512;          ///< [px] longer side of the picture the models run on
-  double min_area = 0.02;          ///< [-] garment / photo area below which the photo is refused (TOO_SMALL)
-  double min_contrast = 0.0;       ///< [-] 0 = the room's own gate
+  int working_side = 512;     ///< [px] longer side of the picture the models run on
+  double min_area = 0.02;     ///< [-] garment / photo area below which the photo is refused (TOO_SMALL)
+  double min_contrast = 0.0;  ///< [-] 0 = the room's own gate
 };
 
 /// The garment's region in the photo (paper III.A, first half), at the photo's own resolution.
 struct Silhouette {
-  Image labels;        ///< Label values, 1 channel, the size of Photo::rgb. Without a shop mask no pixel is label_inside
-                       ///< yet: the inside of the back is found with the neckline, by the features room.
+  Image labels;  ///< Label values, 1 channel, the size of Photo::rgb. Without a shop mask no pixel is label_inside
+                 ///< yet: the inside of the back is found with the neckline, by the features room.
   std::string method;  ///< "mask", "alpha", "sobel" (the paper's scan) or "colour" (the stronger model that took over)
   std::string method_reason;          ///< why the paper's scan was not enough; empty when it was
   double edge_support = 0;            ///< [-] share of the contour that lies on a picture edge

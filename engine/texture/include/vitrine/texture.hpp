@@ -24,12 +24,12 @@ struct TextureSource {
 };
 
 struct Atlas {
-  Image rgb;                            ///< square or 2:1, power of two
-  std::vector<std::vector<Vec2>> uv;    ///< per panel, per node; (0,0) top left
+  Image rgb;                          ///< square or 2:1, power of two
+  std::vector<std::vector<Vec2>> uv;  ///< per panel, per node; (0,0) top left
 };
 
-/// Front and back photo side by side in one power-of-two picture; colours bled outwards past the outline so that no board
-/// shows at a seam; labels other than outside never reach it.
+/// Front and back photo side by side in one power-of-two picture; colours bled outwards past the outline so that no
+/// board shows at a seam; labels other than outside never reach it.
 Result<Atlas> make_atlas(std::span<const TextureSource> panels, const TextureOptions& options = {});
 
 /// The draped panels as one mesh: split at texture cuts, smooth normals over sewn seams, outward winding on both sides.

@@ -11,12 +11,12 @@ namespace vitrine {
 /// A garment or mannequin ready for a file or a picture. One entry per vertex in each filled array; vertices are split
 /// where the texture is cut (at seams), so positions may repeat; normals are continuous over sewn seams.
 struct RenderMesh {
-  std::string name;              ///< node name in files: "garment", "mannequin"
-  std::vector<Vec3> positions;   ///< metres
-  std::vector<Vec3> normals;     ///< unit
-  std::vector<Vec2> uv;          ///< glTF convention: (0,0) is the top left of the texture; empty = no texture
+  std::string name;             ///< node name in files: "garment", "mannequin"
+  std::vector<Vec3> positions;  ///< metres
+  std::vector<Vec3> normals;    ///< unit
+  std::vector<Vec2> uv;         ///< glTF convention: (0,0) is the top left of the texture; empty = no texture
   std::vector<Triangle> triangles;
-  Image texture;                 ///< RGB atlas; empty = plain colour
+  Image texture;                                ///< RGB atlas; empty = plain colour
   std::array<double, 3> colour{0.8, 0.8, 0.8};  ///< linear RGB base colour where there is no texture
 };
 

@@ -27,11 +27,11 @@ struct TemplateFeature {
   Turn turn = Turn::any;
 };
 
-/// One way in which a garment lies on its board (sleeves down, sleeves spread): the paper's template proper. The matcher
-/// tries each pose and keeps the best.
+/// One way in which a garment lies on its board (sleeves down, sleeves spread): the paper's template proper. The
+/// matcher tries each pose and keeps the best.
 struct TemplatePose {
   std::string name;
-  std::vector<Vec2> uv;        ///< per feature: position in the silhouette's bounding box, (0,0) top left, (1,1) bottom right
+  std::vector<Vec2> uv;  ///< per feature: position in the silhouette's bounding box, (0,0) top left, (1,1) bottom right
   std::vector<double> radius;  ///< per feature: search radius, as a share of the box diagonal
 };
 

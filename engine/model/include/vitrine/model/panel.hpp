@@ -41,8 +41,8 @@ struct Pattern {
   std::vector<Panel> panels;      ///< front, back
   std::vector<PanelMesh> meshes;  ///< one for each panel
   std::vector<NodePair> pairs;
-  double edge_length = 0;         ///< [m] target
-  double metres_per_pixel = 0;    ///< of the front photo
+  double edge_length = 0;       ///< [m] target
+  double metres_per_pixel = 0;  ///< of the front photo
 };
 
 }  // namespace vitrine

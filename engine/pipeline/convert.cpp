@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program in one page: the rooms in the order a photo passes them.
+#include "rooms.hpp"
+
+namespace vitrine {
+
+/// The mannequin room is not on this list: its body and voxels are made once and shared by every item (request.body).
+Conversion convert(const ConvertRequest& request) {
+  Conversion item;
+  Rooms rooms(request, item);
+  rooms.enter("request", [&] { return rooms.check_request(); });
+  rooms.enter("photo", [&] { return rooms.load_photos(); });
+  rooms.enter("silhouette", [&] { return rooms.find_silhouettes(); });
+  rooms.enter("features", [&] { return rooms.find_feature_points(); });
+  rooms.enter("panels", [&] { return rooms.cut_panels(); });
+  rooms.enter("mesh", [&] { return rooms.mesh_levels(); });
+  rooms.enter("fit", [&] { return rooms.place(); });
+  rooms.enter("sewing", [&] { return rooms.sew(); });
+  rooms.enter("texture", [&] { return rooms.texture(); });
+  rooms.enter("export", [&] { return rooms.write_glb(); });
+  rooms.enter("preview", [&] { return rooms.take_pictures(); });
+  rooms.enter("sewing", [&] { return rooms.judge_drape(); });
+  return item;
+}
+
+}  // namespace vitrine

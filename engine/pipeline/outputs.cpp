@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+
+#include "vitrine/pipeline.hpp"
+
+namespace vitrine {
+
+std::optional<Error> write_conversion(const ConvertRequest& request, const Conversion& item,
+                                      const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed || !fs::is_directory(folder, failed))
+    return Error{Cause::unwritable, "CANNOT_WRITE",
+                 folder + ": the output folder cannot be made" + (failed ? " (" + failed.message() + ")" : ""),
+                 "name a folder that you may write to with --out", "export"};
+  const std::string base = folder + "/";
+  // A refusal must not leave the pictures of an earlier, accepted run beside its report.
+  for (const char* name : {"garment.glb", "dressed.glb", "preview.png"})
+    if (item.garment_glb.empty()) fs::remove(base + name, failed);
+
+  if (request.debug_images) {
+    const auto picture = [&](const Image& image, const std::string& name) -> std::optional<Error> {
+      if (image.empty()) return std::nullopt;
+      auto png = encode_png(image);
+      if (!png) return png.error();
+      return write_file(base + name, *png);
+    };
+    if (!item.front_silhouette.labels.empty())
+      if (auto e =
+              picture(draw_features(item.front_photo, item.front_silhouette, item.front_features), "debug-front.png"))
+        return e;
+    if (!item.back_silhouette.labels.empty())
+      if (auto e = picture(draw_features(item.back_photo, item.back_silhouette, item.back_features), "debug-back.png"))
+        return e;
+    for (std::size_t i = 0; i < item.pattern.meshes.size(); ++i)
+      if (auto e = picture(draw_mesh(item.pattern.meshes[i]), i == 0 ? "debug-mesh-front.png" : "debug-mesh-back.png"))
+        return e;
+  }
+  if (!item.garment_glb.empty()) {
+    if (auto e = write_file(base + "garment.glb", item.garment_glb)) return e;
+    if (auto e = write_file(base + "dressed.glb", item.dressed_glb)) return e;
+    if (auto e = write_file(base + "preview.png", item.preview_png)) return e;
+    if (request.obj)
+      if (auto e = write_obj(std::span(&item.garment, 1), folder, "garment")) return e;
+  }
+  // Last, so that a report beside the files means that they are all there.
+  return write_file(base + "report.json", report_json(request, item));
+}
+
+}  // namespace vitrine

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rooms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "vitrine/preview.hpp"
+#include "vitrine/texture.hpp"
+
+namespace vitrine {
+namespace {
+
+/// Moves a room's value into its place, or hands its error on.
+template <class T>
+Rooms::Step keep(Result<T> result, T& place) {
+  if (!result) return result.error();
+  place = *std::move(result);
+  return std::nullopt;
+}
+
+double polygon_area(const std::vector<Vec2>& p) {
+  double twice = 0;
+  for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) twice += p[j].x() * p[i].y() - p[i].x() * p[j].y();
+  return std::abs(twice) / 2;
+}
+
+void name_panel(Rooms::Step& error, const std::string& file) {
+  if (error && error->message.find(file) == std::string::npos) error->message = file + ": " + error->message;
+}
+
+}  // namespace
+
+QualityPlan plan_for(Quality quality) {
+  switch (quality) {
+    case Quality::draft:
+      return {{300}, 1e-2};
+    case Quality::fine:
+      return {{300, 2000, 6500, 20000}, 1e-3};
+    case Quality::standard:
+      break;
+  }
+  return {{300, 2000}, 1e-3};
+}
+
+Rooms::Step Rooms::check_request() {
+  const auto& chosen = request_.fabric;
+  const auto& fabrics = request_.garment.fabrics;
+  const auto found = std::find_if(fabrics.begin(), fabrics.end(), [&](const Fabric& f) { return f.name == chosen; });
+  if (chosen.empty() && !fabrics.empty()) {
+    item_.fabric = fabrics.front();
+  } else if (found != fabrics.end()) {
+    item_.fabric = *found;
+  } else {
+    std::string names;
+    for (const Fabric& f : fabrics) names += (names.empty() ? "" : ", ") + f.name;
+    return Error{Cause::usage, "UNKNOWN_FABRIC",
+                 "garment \"" + request_.garment.id + "\" has no fabric \"" + chosen + "\"", "choose one of: " + names,
+                 ""};
+  }
+  return std::nullopt;
+}
+
+Rooms::Step Rooms::load_photos() {
+  if (auto e = keep(load_photo(request_.front, request_.front_mask), item_.front_photo)) return e;
+  if (request_.mirror_back) {
+    // A back picture made of the mirrored front, mirrored once more into the front frame: the front itself.
+    item_.back_photo = item_.front_photo;
+    for (auto& label : item_.back_photo.mask.data)
+      if (label == label_inside) label = label_outside;
+    item_.warnings.push_back("MIRRORED_BACK");
+    return std::nullopt;
+  }
+  PhotoOptions options;
+  options.mirror = true;
+  return keep(load_photo(request_.back, request_.back_mask, options), item_.back_photo);
+}
+
+Rooms::Step Rooms::find_silhouettes() {
+  auto front = keep(find_silhouette(item_.front_photo), item_.front_silhouette);
+  name_panel(front, request_.front);
+  if (front) return front;
+  if (request_.mirror_back) {
+    item_.back_silhouette = item_.front_silhouette;
+    for (auto& label : item_.back_silhouette.labels.data)
+      if (label == label_inside) label = label_outside;
+    return std::nullopt;
+  }
+  auto back = keep(find_silhouette(item_.back_photo), item_.back_silhouette);
+  name_panel(back, request_.back);
+  return back;
+}
+
+Rooms::Step Rooms::find_feature_points() {
+  FeatureOptions options;
+  options.neckline = request_.neckline;
+  auto front =
+      keep(find_features(item_.front_photo, item_.front_silhouette, request_.garment, request_.necklines, options),
+           item_.front_features);
+  name_panel(front, request_.front);
+  if (front) return front;
+  options.side = Side::back;
+  options.neckline = "auto";  // the back's neckline is its own: the choice is the front's
+  auto back =
+      keep(find_features(item_.back_photo, item_.back_silhouette, request_.garment, request_.necklines, options),
+           item_.back_features);
+  name_panel(back, request_.mirror_back ? request_.front : request_.back);
+  return back;
+}
+
+PanelOptions Rooms::panel_options(double edge_length) const {
+  PanelOptions options;
+  options.edge_length = edge_length;
+  options.chest = request_.chest;
+  options.length = request_.length;
+  options.girths = request_.body->mannequin.girths;
+  return options;
+}
+
+Rooms::Step Rooms::cut_panels() {
+  plan_ = plan_for(request_.quality);
+  // A first cut at a middling edge length only to learn the cloth's area.
+  if (auto e = keep(make_panels(item_.front_features, item_.back_features, request_.garment, panel_options(0.03)),
+                    item_.panels))
+    return e;
+  const double area = polygon_area(item_.panels.front.outline) + polygon_area(item_.panels.back.outline);
+  for (const int nodes : plan_.level_nodes) {
+    // A hexagonal lattice of spacing h spends h^2 sqrt(3)/2 of area on each node.
+    const double edge_length = std::sqrt(area / (nodes * std::sqrt(3.0) / 2));
+    Panels panels;
+    if (auto e =
+            keep(make_panels(item_.front_features, item_.back_features, request_.garment, panel_options(edge_length)),
+                 panels))
+      return e;
+    Pattern pattern;
+    pattern.panels = {panels.front, panels.back};
+    pattern.pairs = panels.pairs;
+    pattern.edge_length = edge_length;
+    pattern.metres_per_pixel = panels.metres_per_pixel_front;
+    levels_.push_back(std::move(pattern));
+    item_.panels = std::move(panels);
+  }
+  for (const auto* list : {&item_.front_silhouette.warnings, &item_.front_features.warnings,
+                           &item_.back_silhouette.warnings, &item_.back_features.warnings, &item_.panels.warnings})
+    for (const auto& warning : *list)
+      if (std::find(item_.warnings.begin(), item_.warnings.end(), warning) == item_.warnings.end())
+        item_.warnings.push_back(warning);
+  return std::nullopt;
+}
+
+Rooms::Step Rooms::mesh_levels() {
+  for (Pattern& pattern : levels_) {
+    MeshOptions options;
+    options.edge_length = pattern.edge_length;
+    for (const Panel& panel : pattern.panels) {
+      PanelMesh mesh;
+      if (auto e = keep(mesh_panel(panel.outline, options), mesh)) return e;
+      pattern.meshes.push_back(std::move(mesh));
+    }
+  }
+  item_.pattern = levels_.back();
+  return std::nullopt;
+}
+
+Rooms::Step Rooms::place() {
+  return keep(place_panels(request_.garment, levels_.front(), request_.body->mannequin, request_.body->field), placed_);
+}
+
+Rooms::Step Rooms::sew() {
+  SewingOptions options;
+  options.residual = plan_.residual;
+  if (request_.progress)
+    options.progress = [&](int level, int, double) {
+      request_.progress("sewing", static_cast<double>(level) / static_cast<double>(levels_.size()));
+    };
+  if (auto e = keep(sew_and_drape(levels_, placed_, item_.fabric, request_.body->field, options), item_.drape))
+    return e;
+  // Cloth that came close to rest is worth showing; anything worse is marked by the exit code, and still written.
+  if (item_.drape.status == "NOT_CONVERGED" && item_.drape.residual <= 1e-2)
+    item_.warnings.push_back("RESIDUAL_ABOVE_TARGET");
+  return std::nullopt;
+}
+
+Rooms::Step Rooms::texture() {
+  const TextureSource front{&item_.front_photo.rgb, &item_.front_features.labels, &item_.pattern.panels[0],
+                            &item_.pattern.meshes[0]};
+  const TextureSource back{&item_.back_photo.rgb, &item_.back_features.labels, &item_.pattern.panels[1],
+                           &item_.pattern.meshes[1]};
+  const TextureSource sources[] = {front, back};
+  auto atlas = make_atlas(sources);
+  if (!atlas) return atlas.error();
+  item_.garment = assemble_garment(item_.pattern, item_.drape.positions, item_.drape.welded, *std::move(atlas));
+  item_.mannequin = assemble_mannequin(request_.body->mannequin.mesh);
+  return std::nullopt;
+}
+
+Rooms::Step Rooms::write_glb() {
+  GlbOptions options;
+  options.extras_json =
+      nlohmann::json{{"name", request_.name}, {"garment", request_.garment.id}, {"status", item_.drape.status}}.dump();
+  if (auto e = keep(encode_glb(std::span(&item_.garment, 1), options), item_.garment_glb)) return e;
+  const RenderMesh both[] = {item_.garment, item_.mannequin};
+  return keep(encode_glb(both, options), item_.dressed_glb);
+}
+
+Rooms::Step Rooms::take_pictures() {
+  const RenderMesh both[] = {item_.garment, item_.mannequin};
+  Image picture;
+  if (auto e = keep(render_preview(both), picture)) return e;
+  if (auto e = keep(encode_png(picture), item_.preview_png)) return e;
+  return std::nullopt;
+}
+
+Rooms::Step Rooms::judge_drape() {
+  // Last of all, with every file made: a drape that failed is an error that the exit code has to show.
+  const Drape& drape = item_.drape;
+  const bool close_enough = drape.status == "NOT_CONVERGED" && drape.residual <= 1e-2;
+  if (drape.status != "OK" && !close_enough)
+    return Error{
+        Cause::unusable, drape.status, request_.front + ": " + drape.detail,
+        "the files are written and marked; check the feature points with --debug-images, the size with --chest-cm "
+        "or --length-cm, or choose another fabric or mannequin",
+        "sewing"};
+  return std::nullopt;
+}
+
+}  // namespace vitrine
