@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vitrine/host/adopt.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <regex>
+
+#include "adopt_tables.hpp"
+
+namespace vitrine {
+
+namespace {
+
+using adoption::Broken;
+using adoption::quoted;
+using adoption::read_name;
+using adoption::read_number;
+using adoption::read_span;
+using adoption::read_text;
+
+constexpr auto rules = std::to_array<AdoptionRule>({
+    {"entry.magic", "The exported symbol is a Vitrine plugin descriptor."},
+    {"entry.abi_major", "The plugin was built for the host's major ABI version."},
+    {"entry.abi_minor", "The plugin asks for no newer minor ABI version than the host's."},
+    {"entry.size", "The descriptor is at least as large as in ABI 1.0."},
+    {"entry.id", "The plugin's id is a reverse URI and its version a semantic version."},
+    {"entry.content", "The plugin brings at least one garment or neckline."},
+    {"span.count", "Every table has as many elements as it may have."},
+    {"span.data", "A table with elements has data."},
+    {"span.stride", "A table's stride is at least its element's size."},
+    {"text.present", "Every text that is needed is there."},
+    {"text.length", "Texts keep to their greatest length."},
+    {"text.utf8", "Texts are UTF-8 without control characters."},
+    {"name.form", "Names are small letters, digits and underscores and begin with a letter."},
+    {"name.unique", "No two things in a table have the same name."},
+    {"name.known", "A name that refers to something refers to something that exists."},
+    {"number.finite", "Every number is finite."},
+    {"number.range", "Every number lies in its range; reserved fields are 0."},
+    {"mirror.involution", "The mirror of a feature's mirror is the feature."},
+    {"outline.closed", "Each edge begins where the one before ends, and the last ends where the first began."},
+    {"outline.order", "The edges visit the features once, in the order of their table."},
+    {"outline.neck", "A garment has at most one neck edge."},
+    {"pose.complete", "A pose places every feature exactly once."},
+    {"pose.clockwise", "The outline of a pose runs clockwise in the picture."},
+    {"seam.kind", "Seams sew edges of kind seam only."},
+    {"seam.pairs", "Every edge of kind seam is sewn exactly once on the front and once on the back."},
+    {"limb.corners", "A limb's root and tip are four different features."},
+    {"scale.measurable", "The features that the scale rule measures lie apart in every pose."},
+    {"anchor.landmark", "An anchor has a body landmark to hang on."},
+    {"neckline.profile", "A neckline's profile runs from (0,0) to (1,0), s ascending, and reaches depth 1."},
+});
+
+constexpr auto landmarks = std::to_array<std::string_view>(
+    {"neck_left",    "neck_right",   "neck_front",  "neck_back",   "shoulder_left", "shoulder_right",
+     "armpit_left",  "armpit_right", "bust_left",   "bust_right",  "under_bust",    "waist",
+     "waist_left",   "waist_right",  "hip",         "hip_left",    "hip_right",     "biceps_left",
+     "biceps_right", "elbow_left",   "elbow_right", "wrist_left",  "wrist_right",   "crotch",
+     "knee_left",    "knee_right",   "ankle_left",  "ankle_right", "crown"});
+
+constexpr auto girths =
+    std::to_array<std::string_view>({"bust", "under_bust", "waist", "hip", "neck_base", "biceps", "wrist", "thigh"});
+
+std::string version_text(std::uint32_t major, std::uint32_t minor) {
+  return std::to_string(major) + "." + std::to_string(minor);
+}
+
+Error error_of(const Broken& broken, const std::string& who, const std::string& file) {
+  Error error;
+  error.cause = Cause::plugin;
+  error.code = "PLUGIN_";
+  for (const char c : broken.rule)
+    error.code += c == '.' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  error.message = "plugin " + (who.empty() ? "" : quoted(who) + " ") + "in " + file + " breaks the rule " +
+                  std::string(broken.rule) + ": " + broken.what;
+  error.remedy = "Ask the plugin's author to correct its tables, or remove the file";
+  error.stage = "plugin";
+  return error;
+}
+
+/// Both numbers and both ways out: whoever reads it may own the plugin or the host.
+Error version_error(const char* rule, const std::string& file, std::uint32_t major, std::uint32_t minor,
+                    const std::string& why, const std::string& remedy) {
+  Error error =
+      error_of({rule, "it was built for plugin ABI " + version_text(major, minor) + ", this vitrine has ABI " +
+                          version_text(VITRINE_ABI_MAJOR, VITRINE_ABI_MINOR) + "; " + why},
+               "", file);
+  error.remedy = remedy;
+  return error;
+}
+
+/// The four frozen fields; everything behind them has a meaning only when they are right.
+struct Head {
+  std::uint32_t magic, major, minor, size;
+};
+
+void read_identity(const vitrine_plugin& entry, AdoptedPlugin& plugin) {
+  static const std::regex reverse_uri("[a-z0-9][a-z0-9_-]*(\\.[a-z0-9][a-z0-9_-]*)+");
+  static const std::regex semver(
+      "(0|[1-9][0-9]*)\\.(0|[1-9][0-9]*)\\.(0|[1-9][0-9]*)(-[0-9A-Za-z-]+(\\.[0-9A-Za-z-]+)*)?"
+      "(\\+[0-9A-Za-z-]+(\\.[0-9A-Za-z-]+)*)?");
+  const std::string id = read_text(entry.id, 128, "the plugin's id");
+  if (!std::regex_match(id, reverse_uri))
+    throw Broken{"entry.id", "the plugin's id is " + quoted(id) + ", not a reverse URI such as \"org.example.poncho\""};
+  plugin.identity.id = id;
+  plugin.identity.version = read_text(entry.version, 64, "the plugin's version");
+  if (!std::regex_match(plugin.identity.version, semver))
+    throw Broken{"entry.id",
+                 "the plugin's version is " + quoted(plugin.identity.version) + ", not one such as \"1.0.0\""};
+  plugin.identity.vendor = read_text(entry.vendor, 200, "the plugin's vendor");
+}
+
+}  // namespace
+
+std::span<const AdoptionRule> adoption_rules() {
+  return rules;
+}
+std::span<const std::string_view> body_landmarks() {
+  return landmarks;
+}
+std::span<const std::string_view> body_girths() {
+  return girths;
+}
+
+Result<AdoptedPlugin> adopt(const void* entry, const std::string& file) {
+  AdoptedPlugin plugin;
+  plugin.identity.file = file;
+  try {
+    if (entry == nullptr) throw Broken{"entry.magic", "there is no descriptor"};
+    Head head;
+    std::memcpy(&head, entry, sizeof head);
+    if (head.magic != VITRINE_MAGIC) throw Broken{"entry.magic", "the descriptor does not begin with the magic number"};
+    if (head.major != VITRINE_ABI_MAJOR)
+      return version_error("entry.abi_major", file, head.major, head.minor, "major versions have to be equal",
+                           head.major > VITRINE_ABI_MAJOR
+                               ? "Update vitrine, or rebuild the plugin with the SDK of ABI " +
+                                     version_text(VITRINE_ABI_MAJOR, VITRINE_ABI_MINOR)
+                               : "Rebuild the plugin with the SDK of ABI " +
+                                     version_text(VITRINE_ABI_MAJOR, VITRINE_ABI_MINOR) +
+                                     ", or use a vitrine with plugin ABI " + version_text(head.major, head.minor));
+    if (head.minor > VITRINE_ABI_MINOR)
+      return version_error(
+          "entry.abi_minor", file, head.major, head.minor, "the plugin's minor version may not be newer than vitrine's",
+          "Update vitrine, or rebuild the plugin with VITRINE_ABI_TARGET_MINOR=" + std::to_string(VITRINE_ABI_MINOR));
+    plugin.abi_major = head.major;
+    plugin.abi_minor = head.minor;
+    if (head.size < adoption::size_1_0<vitrine_plugin> || head.size > adoption::max_struct_size)
+      throw Broken{"entry.size", "the descriptor says it has " + std::to_string(head.size) +
+                                     " bytes, it needs at least " + std::to_string(adoption::size_1_0<vitrine_plugin>)};
+    const auto table = adoption::read_struct<vitrine_plugin>(entry, head.size);
+    read_identity(table, plugin);
+    const auto garments = read_span(table.garments, 0, 64, "the plugin's garments");
+    const auto necklines = read_span(table.necklines, 0, 64, "the plugin's necklines");
+    if (garments.empty() && necklines.empty()) throw Broken{"entry.content", "it brings no garment and no neckline"};
+    adoption::Names ids("garment or neckline");
+    for (const vitrine_garment& row : garments) {
+      plugin.garments.push_back(adoption::copy_garment(row, plugin.identity));
+      ids.add(plugin.garments.back().id, "the plugin");
+    }
+    for (const vitrine_neckline& row : necklines) {
+      plugin.necklines.push_back(adoption::copy_neckline(row, plugin.identity));
+      ids.add(plugin.necklines.back().id, "the plugin");
+    }
+  } catch (const Broken& broken) {
+    return error_of(broken, plugin.identity.id, file);
+  }
+  return plugin;
+}
+
+Result<GarmentTemplate> adopt_garment(const vitrine_garment& table, const PluginIdentity& identity) {
+  try {
+    return adoption::copy_garment(table, identity);
+  } catch (const Broken& broken) {
+    return error_of(broken, identity.id, identity.file);
+  }
+}
+
+Result<NecklineTemplate> adopt_neckline(const vitrine_neckline& table, const PluginIdentity& identity) {
+  try {
+    return adoption::copy_neckline(table, identity);
+  } catch (const Broken& broken) {
+    return error_of(broken, identity.id, identity.file);
+  }
+}
+
+namespace adoption {
+
+NecklineTemplate copy_neckline(const vitrine_neckline& table, const PluginIdentity& identity) {
+  NecklineTemplate copy;
+  copy.id = read_name(table.id, "a neckline's id");
+  const std::string where = "neckline " + quoted(copy.id);
+  copy.title = read_text(table.title, 200, where + ": title");
+  copy.plugin = identity.id;
+  copy.version = identity.version;
+  double deepest = 0;
+  for (const vitrine_profile_point& row : read_span(table.profile, 3, 256, where + ": profile")) {
+    const std::string at = where + ": profile point " + std::to_string(copy.profile.size());
+    const Vec2 point(read_number(row.s, 0, 1, at + ": s"), read_number(row.depth, 0, 1, at + ": depth"));
+    if (!copy.profile.empty() && !(point.x() > copy.profile.back().x()))
+      throw Broken{"neckline.profile", at + ": s does not ascend"};
+    deepest = std::max(deepest, point.y());
+    copy.profile.push_back(point);
+  }
+  if (copy.profile.front() != Vec2(0, 0) || copy.profile.back() != Vec2(1, 0))
+    throw Broken{"neckline.profile", where + ": the profile does not run from (0,0) to (1,0)"};
+  if (deepest < 1) throw Broken{"neckline.profile", where + ": the profile does not reach depth 1"};
+  copy.ratio_min = read_number(table.ratio_min, 0, 1e6, where + ": ratio_min");
+  copy.ratio_max = read_number(table.ratio_max, 0, 1e6, where + ": ratio_max");
+  if (!(copy.ratio_min < copy.ratio_max)) throw Broken{"number.range", where + ": ratio_min is not below ratio_max"};
+  copy.default_depth = read_number(table.default_depth, 0.01, 5, where + ": default_depth");
+  return copy;
+}
+
+}  // namespace adoption
+
+}  // namespace vitrine
