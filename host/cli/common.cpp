@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace vitrine::cli {
+namespace {
+
+struct MeasurementField {
+  const char* name;
+  double Measurements::*field;
+};
+constexpr MeasurementField measurement_fields[] = {
+    {"height", &Measurements::height},         {"bust", &Measurements::bust}, {"under_bust", &Measurements::under_bust},
+    {"waist", &Measurements::waist},           {"hip", &Measurements::hip},   {"inside_leg", &Measurements::inside_leg},
+    {"arm", &Measurements::arm},               {"neck_base", &Measurements::neck_base}};
+
+std::string lower_extension(const std::string& path) {
+  std::string e = std::filesystem::path(path).extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return e;
+}
+
+/// Measurements in millimetres from {"sex": "woman", "height": 1720, ...}.
+std::optional<Error> read_measurements(const std::string& path, Measurements& m) {
+  std::ifstream in(path);
+  if (!in) return Error{Cause::missing, "MISSING", path + ": the file cannot be read", "check the path given to --mannequin", "mannequin"};
+  const auto broken = [&](const std::string& what) {
+    return Error{Cause::unusable, "MEASUREMENTS", path + ": " + what,
+                 "give \"sex\" and any of height, bust, under_bust, waist, hip, inside_leg, arm, neck_base in millimetres", "mannequin"};
+  };
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object()) return broken("not a JSON object");
+  for (const auto& [key, value] : json.items()) {
+    if (key == "sex") {
+      if (!value.is_string()) return broken("\"sex\" is not a text");
+      m.sex = value.get<std::string>();
+      continue;
+    }
+    const auto field = std::find_if(std::begin(measurement_fields), std::end(measurement_fields),
+                                    [&](const MeasurementField& f) { return key == f.name; });
+    if (field == std::end(measurement_fields)) return broken("unknown measurement \"" + key + "\"");
+    if (!value.is_number()) return broken("\"" + key + "\" is not a number");
+    m.*(field->field) = value.get<double>() * 1e-3;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void PluginOptions::add_to(CLI::App& app) {
+  app.add_option("--plugin", files, "Plugin file (*.vitrine.so) to load first")->group("Plugins");
+  app.add_option("--plugin-dir", folders, "Folder of plugins to load before the built-in ones")->group("Plugins");
+}
+
+void MannequinOptions::add_to(CLI::App& app) {
+  app.add_option("--mannequin", file, "Watertight OBJ, GLB or PLY body, or a JSON file of measurements [mm]")->group("Mannequin");
+  app.add_option("--sex", sex, "Built-in body: woman or man")->check(CLI::IsMember({"woman", "man"}))->group("Mannequin");
+  millimetres.clear();
+  for (const auto& f : measurement_fields) millimetres.emplace_back(f.name, std::nullopt);
+  for (auto& [name, value] : millimetres) {
+    std::string flag = "--" + name + "-mm";
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    app.add_option(flag, value, "Body measurement [mm]")->group("Mannequin");
+  }
+}
+
+Result<std::shared_ptr<const Body>> MannequinOptions::make_body() const {
+  auto body = std::make_shared<Body>();
+  Measurements m;
+  const bool measured = file.empty() || lower_extension(file) == ".json";
+  const bool flags = !sex.empty() || std::any_of(millimetres.begin(), millimetres.end(), [](const auto& v) { return v.second.has_value(); });
+  if (!measured && flags)
+    return Error{Cause::usage, "USAGE", file + ": a mesh has its own measurements", "leave out --sex and the --...-mm flags, or --mannequin", "mannequin"};
+  if (measured) {
+    if (!file.empty())
+      if (auto e = read_measurements(file, m)) return *e;
+    if (!sex.empty()) m.sex = sex;
+    for (std::size_t i = 0; i < millimetres.size(); ++i)
+      if (millimetres[i].second) m.*(measurement_fields[i].field) = *millimetres[i].second * 1e-3;
+  }
+  auto mannequin = measured ? build_mannequin(m) : import_mannequin(file);
+  if (!mannequin) return mannequin.error();
+  body->mannequin = *std::move(mannequin);
+  auto field = voxelise(body->mannequin.mesh);
+  if (!field) return field.error();
+  body->field = *std::move(field);
+  return std::shared_ptr<const Body>(std::move(body));
+}
+
+void JobOptions::add_to(CLI::App& app) {
+  app.add_option("--quality", quality, "draft (about 300 nodes), standard (2,000) or fine (20,000)")
+      ->check(CLI::IsMember({"draft", "standard", "fine"}))
+      ->capture_default_str();
+  app.add_flag("--debug-images", debug_images, "Also write pictures of silhouette, feature points and mesh");
+  app.add_flag("--obj", obj, "Also write garment.obj");
+}
+
+void JobOptions::apply(ConvertRequest& request) const {
+  request.quality = quality == "draft" ? Quality::draft : quality == "fine" ? Quality::fine : Quality::standard;
+  request.debug_images = debug_images;
+  request.obj = obj;
+  request.version = VITRINE_VERSION;
+}
+
+std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment, ConvertRequest& request) {
+  const GarmentTemplate* found = registry.find_garment(garment);
+  if (!found) {
+    std::string known;
+    for (const GarmentTemplate& g : registry.garments()) known += (known.empty() ? "" : ", ") + g.id;
+    std::string message = "no plugin supplies the garment \"" + garment + "\"";
+    if (!registry.rejected().empty())
+      message += " (" + std::to_string(registry.rejected().size()) + " plugin files were refused: see vitrine plugin list)";
+    return Error{Cause::plugin, "UNKNOWN_GARMENT", message,
+                 known.empty() ? "no garment plugin was found: give --plugin-dir" : "choose one of: " + known, "request"};
+  }
+  request.garment = *found;
+  request.necklines.assign(registry.necklines().begin(), registry.necklines().end());
+  return std::nullopt;
+}
+
+int fail(const Error& error) {
+  spdlog::error("vitrine: {}{}", error.stage.empty() ? "" : error.stage + ": ", error.message);
+  if (!error.code.empty()) spdlog::error("  reason: {}", error.code);
+  if (!error.remedy.empty()) spdlog::error("  remedy: {}", error.remedy);
+  return error.exit_code();
+}
+
+}  // namespace vitrine::cli

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vitrine/host/registry.hpp"
+#include "vitrine/pipeline.hpp"
+
+namespace vitrine::cli {
+
+/// Where plugins are looked for, besides the program's own folder.
+struct PluginOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> folders;
+  void add_to(CLI::App& app);
+  PluginRegistry load() const;
+};
+
+/// The mannequin as asked for: a mesh or measurements file, or single measurements.
+struct MannequinOptions {
+  std::string file;
+  std::string sex;
+  /// One entry per measurement flag [mm]; unset ones keep the default.
+  std::vector<std::pair<std::string, std::optional<double>>> millimetres;
+  void add_to(CLI::App& app);
+  /// Builds or imports the body and its voxels.
+  Result<std::shared_ptr<const Body>> make_body() const;
+};
+
+/// What of a conversion is chosen on the command line and the same for a whole catalogue.
+struct JobOptions {
+  std::string quality = "standard";
+  bool debug_images = false;
+  bool obj = false;
+  void add_to(CLI::App& app);
+  void apply(ConvertRequest& request) const;
+};
+
+/// Adds to `request` what the registry knows: the garment's template and all necklines.
+std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment, ConvertRequest& request);
+
+/// Prints "vitrine: message / remedy" to standard error and returns the exit code.
+int fail(const Error& error);
+
+void add_convert(CLI::App& app, int& exit_code);
+void add_catalog(CLI::App& app, int& exit_code);
+void add_plugin(CLI::App& app, int& exit_code);
+
+}  // namespace vitrine::cli

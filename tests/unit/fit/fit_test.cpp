@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vitrine/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace vitrine;
+
+namespace {
+
+double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double r) {
+  const Vec3 d = b - a;
+  const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+  return (p - a - t * d).norm() - r;
+}
+
+const Vec3 shoulder(0.17, 1.40, 0), elbow(0.37, 1.18, 0), wrist(0.53, 1.00, 0);
+Vec3 mirrored(Vec3 v) {
+  return {-v.x(), v.y(), v.z()};
+}
+
+/// A trunk with two straight arms at about 42 degrees; landmarks of a long sleeve.
+struct Doll {
+  Mannequin mannequin;
+  DistanceField field;
+  Doll() {
+    for (const double y : {0.0, 1.7}) mannequin.mesh.vertices.push_back(Vec3(0, y, 0));
+    auto& l = mannequin.landmarks;
+    l["neck_left"] = Vec3(-0.06, 1.46, 0);
+    l["neck_right"] = Vec3(0.06, 1.46, 0);
+    l["shoulder_right"] = shoulder, l["elbow_right"] = elbow, l["wrist_right"] = wrist;
+    l["shoulder_left"] = mirrored(shoulder), l["elbow_left"] = mirrored(elbow), l["wrist_left"] = mirrored(wrist);
+    field.spacing = 0.01;
+    field.origin = Vec3(-0.8, 0.5, -0.4);
+    field.size = {161, 121, 81};
+    for (int z = 0; z < field.size[2]; ++z)
+      for (int y = 0; y < field.size[1]; ++y)
+        for (int x = 0; x < field.size[0]; ++x) {
+          const Vec3 p = field.origin + field.spacing * Vec3(x, y, z);
+          double d = capsule(p, Vec3(0, 0.8, 0), Vec3(0, 1.35, 0), 0.14);
+          for (const bool left : {false, true}) {
+            const Vec3 q = left ? mirrored(p) : p;
+            d = std::min({d, capsule(q, shoulder, elbow, 0.045), capsule(q, elbow, wrist, 0.04)});
+          }
+          field.values.push_back(static_cast<float>(d));
+        }
+  }
+};
+
+/// A long-sleeve outline whose sleeves hang at `degrees` from the vertical; nodes on the outline only.
+struct Shirt {
+  GarmentTemplate garment;
+  Pattern pattern;
+  explicit Shirt(double degrees) {
+    const double a = degrees * M_PI / 180;
+    const Vec2 along(std::sin(a), -std::cos(a)), across(std::cos(a), std::sin(a));
+    const Vec2 armpit(0.24, -0.22), top(0.20, -0.03);
+    const Vec2 lower = armpit + 0.40 * along, upper = lower + 0.13 * across;
+    // Clockwise in the picture is the template's order; the panel's outline runs the other way.
+    const std::vector<std::pair<std::string, Vec2>> right{{"neck", {0.08, 0}},   {"shoulder", top},
+                                                          {"cuff_upper", upper}, {"cuff_lower", lower},
+                                                          {"armpit", armpit},    {"hem", {0.25, -0.6}}};
+    std::vector<std::pair<std::string, Vec2>> loop;
+    for (const auto& [name, p] : right) loop.emplace_back(name + "_left", Vec2(-p.x(), p.y()));
+    for (std::size_t i = right.size(); i-- > 0;) loop.emplace_back(right[i].first + "_right", right[i].second);
+    Panel panel;
+    std::map<std::string, int> index;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 from = loop[i].second, to = loop[(i + 1) % loop.size()].second;
+      index[loop[i].first] = static_cast<int>(garment.features.size());
+      TemplateFeature feature;
+      feature.name = loop[i].first;
+      garment.features.push_back(feature);
+      panel.corner.push_back(static_cast<int>(panel.outline.size()));
+      for (int k = 0; k < 8; ++k) panel.outline.push_back(from + (to - from) * k / 8.0);
+    }
+    for (const std::string side : {"_left", "_right"}) {
+      garment.features[index["neck" + side]].landmark = "neck" + side;
+      garment.anchors.push_back(index["neck" + side]);
+      garment.limbs.push_back({"sleeve" + side,
+                               index["shoulder" + side],
+                               index["armpit" + side],
+                               index["cuff_upper" + side],
+                               index["cuff_lower" + side],
+                               {"shoulder" + side, "elbow" + side, "wrist" + side}});
+    }
+    for (const Side side : {Side::front, Side::back}) {
+      panel.side = side;
+      pattern.panels.push_back(panel);
+      pattern.meshes.push_back({panel.outline, {}});
+    }
+  }
+  Vec3 corner(const Placement& placed, int panel, const std::string& name) const {
+    for (std::size_t i = 0; i < garment.features.size(); ++i)
+      if (garment.features[i].name == name) return placed[panel][pattern.panels[panel].corner[i]];
+    return Vec3::Zero();
+  }
+};
+
+}  // namespace
+
+TEST(Fit, panels_stand_before_and_behind_and_clear_of_the_body) {
+  const Doll doll;
+  const Shirt shirt(30);
+  const auto placed = place_panels(shirt.garment, shirt.pattern, doll.mannequin, doll.field);
+  ASSERT_TRUE(placed);
+  for (int panel = 0; panel < 2; ++panel)
+    for (const Vec3& q : (*placed)[panel]) {
+      EXPECT_GT(q.z() * (panel == 0 ? 1 : -1), 0);
+      EXPECT_GE(doll.field.distance(q), 0.009);
+    }
+}
+
+TEST(Fit, sleeves_of_any_spread_follow_the_arms) {
+  const Doll doll;
+  for (const double degrees : {8.0, 30.0, 42.0, 70.0, 85.0}) {
+    const Shirt shirt(degrees);
+    const auto placed = place_panels(shirt.garment, shirt.pattern, doll.mannequin, doll.field);
+    ASSERT_TRUE(placed);
+    const Vec3 cuff = (shirt.corner(*placed, 0, "cuff_upper_right") + shirt.corner(*placed, 0, "cuff_lower_right")) / 2;
+    const Vec2 arm = (wrist - elbow).head<2>().normalized(), off = cuff.head<2>() - wrist.head<2>();
+    EXPECT_LT(std::abs(off.x() * arm.y() - off.y() * arm.x()), 0.02)
+        << "cuff beside the arm at " << degrees << " degrees";
+  }
+}
+
+TEST(Fit, mirrored_panels_are_placed_mirrored) {
+  const Doll doll;
+  const Shirt shirt(25);
+  const auto placed = place_panels(shirt.garment, shirt.pattern, doll.mannequin, doll.field);
+  ASSERT_TRUE(placed);
+  for (const char* name : {"neck", "shoulder", "cuff_upper", "cuff_lower", "armpit", "hem"}) {
+    const Vec3 l = shirt.corner(*placed, 0, std::string(name) + "_left"),
+               r = shirt.corner(*placed, 0, std::string(name) + "_right");
+    EXPECT_NEAR(l.x(), -r.x(), 1e-6) << name;
+    EXPECT_NEAR(l.y(), r.y(), 1e-6) << name;
+  }
+}
+
+TEST(Fit, the_trunk_keeps_its_flat_shape) {
+  const Doll doll;
+  const Shirt shirt(8);
+  const auto placed = place_panels(shirt.garment, shirt.pattern, doll.mannequin, doll.field);
+  ASSERT_TRUE(placed);
+  const double width = (shirt.corner(*placed, 0, "hem_right") - shirt.corner(*placed, 0, "hem_left")).head<2>().norm();
+  EXPECT_NEAR(width, 0.50, 1e-9);
+}
+
+TEST(Fit, a_panel_of_another_size_than_any_body_is_refused) {
+  const Doll doll;
+  Shirt shirt(30);
+  for (auto& panel : shirt.pattern.panels)
+    for (Vec2& p : panel.outline) p *= 100;
+  const auto placed = place_panels(shirt.garment, shirt.pattern, doll.mannequin, doll.field);
+  ASSERT_FALSE(placed);
+  EXPECT_EQ(placed.error().code, "PANEL_SIZE");
+}
+
+TEST(Fit, a_missing_landmark_is_named) {
+  Doll doll;
+  doll.mannequin.landmarks.erase("wrist_left");
+  const Shirt shirt(30);
+  const auto placed = place_panels(shirt.garment, shirt.pattern, doll.mannequin, doll.field);
+  ASSERT_FALSE(placed);
+  EXPECT_EQ(placed.error().code, "NO_LANDMARK");
+  EXPECT_NE(placed.error().message.find("wrist_left"), std::string::npos);
+}
