@@ -80,7 +80,7 @@ constexpr bool same(const char* a, const char* b) {
 /// u lies at 1 - u. A feature that neither the half nor its mirror names does not compile.
 template <std::size_t n, std::size_t m>
 consteval std::array<vitrine_pose_point, n> symmetric_pose(const std::array<vitrine_feature, n>& features,
-                                                           const std::array<vitrine_pose_point, m>& half) {
+                                                           const vitrine_pose_point (&half)[m]) {
   std::array<vitrine_pose_point, n> pose{};
   for (std::size_t i = 0; i < n; ++i) {
     bool found = false;

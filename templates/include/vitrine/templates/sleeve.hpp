@@ -43,24 +43,18 @@ inline constexpr auto long_sleeve_features = sdk::join(torso_neck, torso_shoulde
                                                        torso_body, sleeve_left, torso_shoulder_left(VITRINE_TURN_ANY));
 
 // Left halves, as means over flat-lay photos; the right half is the mirror image.
-inline constexpr auto sleeves_down =
-    sdk::symmetric_pose(long_sleeve_features, std::array<vitrine_pose_point, 6>{{
-                                                  {"neck_left", 0.400, 0.005, 0.08},
-                                                  {"shoulder_left", 0.220, 0.070, 0.10},
-                                                  {"armpit_left", 0.195, 0.400, 0.12},
-                                                  {"cuff_lower_left", 0.250, 0.890, 0.12},
-                                                  {"cuff_upper_left", 0.130, 0.920, 0.12},
-                                                  {"hem_left", 0.200, 0.985, 0.12},
-                                              }});
-inline constexpr auto sleeves_spread =
-    sdk::symmetric_pose(long_sleeve_features, std::array<vitrine_pose_point, 6>{{
-                                                  {"neck_left", 0.385, 0.010, 0.08},
-                                                  {"shoulder_left", 0.260, 0.075, 0.10},
-                                                  {"armpit_left", 0.230, 0.355, 0.12},
-                                                  {"cuff_lower_left", 0.145, 0.885, 0.16},
-                                                  {"cuff_upper_left", 0.035, 0.890, 0.16},
-                                                  {"hem_left", 0.220, 0.970, 0.12},
-                                              }});
+inline constexpr vitrine_pose_point sleeves_down_half[] = {
+    {"neck_left", 0.400, 0.005, 0.08},       {"shoulder_left", 0.220, 0.070, 0.10},
+    {"armpit_left", 0.195, 0.400, 0.12},     {"cuff_lower_left", 0.250, 0.890, 0.12},
+    {"cuff_upper_left", 0.130, 0.920, 0.12}, {"hem_left", 0.200, 0.985, 0.12},
+};
+inline constexpr auto sleeves_down = sdk::symmetric_pose(long_sleeve_features, sleeves_down_half);
+inline constexpr vitrine_pose_point sleeves_spread_half[] = {
+    {"neck_left", 0.385, 0.010, 0.08},       {"shoulder_left", 0.260, 0.075, 0.10},
+    {"armpit_left", 0.230, 0.355, 0.12},     {"cuff_lower_left", 0.145, 0.885, 0.16},
+    {"cuff_upper_left", 0.035, 0.890, 0.16}, {"hem_left", 0.220, 0.970, 0.12},
+};
+inline constexpr auto sleeves_spread = sdk::symmetric_pose(long_sleeve_features, sleeves_spread_half);
 inline constexpr std::array<vitrine_pose, 2> long_sleeve_poses = {{
     {"sleeves_down", sdk::span(sleeves_down)},
     {"sleeves_spread", sdk::span(sleeves_spread)},

@@ -64,18 +64,20 @@ inline constexpr auto vest_features = sdk::join(torso_neck, torso_shoulder_right
                                                 torso_shoulder_left(VITRINE_TURN_CONVEX));
 
 // Left halves, as means over flat-lay photos of vests; the right half is the mirror image.
-inline constexpr auto vest_wide_straps = sdk::symmetric_pose(vest_features, std::array<vitrine_pose_point, 4>{{
-                                                                                {"neck_left", 0.305, 0.005, 0.10},
-                                                                                {"shoulder_left", 0.160, 0.035, 0.10},
-                                                                                {"armpit_left", 0.040, 0.350, 0.12},
-                                                                                {"hem_left", 0.015, 0.980, 0.12},
-                                                                            }});
-inline constexpr auto vest_narrow_straps = sdk::symmetric_pose(vest_features, std::array<vitrine_pose_point, 4>{{
-                                                                                  {"neck_left", 0.145, 0.015, 0.12},
-                                                                                  {"shoulder_left", 0.060, 0.045, 0.12},
-                                                                                  {"armpit_left", 0.035, 0.370, 0.14},
-                                                                                  {"hem_left", 0.055, 0.960, 0.14},
-                                                                              }});
+inline constexpr vitrine_pose_point vest_wide_straps_half[] = {
+    {"neck_left", 0.305, 0.005, 0.10},
+    {"shoulder_left", 0.160, 0.035, 0.10},
+    {"armpit_left", 0.040, 0.350, 0.12},
+    {"hem_left", 0.015, 0.980, 0.12},
+};
+inline constexpr auto vest_wide_straps = sdk::symmetric_pose(vest_features, vest_wide_straps_half);
+inline constexpr vitrine_pose_point vest_narrow_straps_half[] = {
+    {"neck_left", 0.145, 0.015, 0.12},
+    {"shoulder_left", 0.060, 0.045, 0.12},
+    {"armpit_left", 0.035, 0.370, 0.14},
+    {"hem_left", 0.055, 0.960, 0.14},
+};
+inline constexpr auto vest_narrow_straps = sdk::symmetric_pose(vest_features, vest_narrow_straps_half);
 inline constexpr std::array<vitrine_pose, 2> vest_poses = {{
     {"wide_straps", sdk::span(vest_wide_straps)},
     {"narrow_straps", sdk::span(vest_narrow_straps)},

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include "vitrine/check.hpp"
+#include "vitrine/templates/torso.hpp"
+
+namespace {
+
+constexpr std::array garments = {vitrine::templates::vest};
+static_assert(vitrine::sdk::check(garments[0]));
+
+}  // namespace
+
+VITRINE_PLUGIN(.vendor = "Vitrine", .id = "org.vitrine.vest", .version = "0.1.0",
+               .garments = vitrine::sdk::span(garments), .necklines = {}, .extension = nullptr);
