@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "noise.hpp"
+#include "photo_maker.hpp"
+
+namespace vitrine::support {
+namespace {
+
+double distance(const Rgb& a, const Rgb& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+Rgb random_colour(Dice& dice) {
+  return {dice.range(20, 240), dice.range(20, 240), dice.range(20, 240)};
+}
+
+}  // namespace
+
+double contrast(const PhotoSpec& spec) {
+  double least = distance(spec.board, spec.colour);
+  if (spec.rib > 0 || spec.garment == GarmentKind::skirt) least = std::min(least, distance(spec.board, spec.trim));
+  if (spec.fabric != Fabric2d::plain) least = std::min(least, distance(spec.board, spec.second));
+  if (spec.fabric == Fabric2d::floral) least = std::min(least, distance(spec.board, spec.third));
+  return least;
+}
+
+PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment) {
+  Dice dice(seed * 3 + static_cast<std::uint32_t>(garment));
+  PhotoSpec s;
+  s.garment = garment;
+  s.seed = seed;
+  s.neck = static_cast<NeckKind>(dice.pick(3));
+  if (garment == GarmentKind::vest) {
+    s.neck_half = dice.range(6.5, 10);
+    s.shoulder_half = s.neck_half + dice.range(3, 8);
+    s.neck_depth = dice.range(9, 19);
+    s.armhole_depth = dice.range(19, 25);
+    s.chest = std::max(dice.range(38, 56), 2 * s.shoulder_half + 5);
+    s.hem = s.chest * dice.range(0.94, 1.2);
+    s.length = dice.range(50, 72);
+    s.rib = dice.pick(3) == 0 ? 0 : dice.range(1, 2.2);
+  } else if (garment == GarmentKind::long_sleeve) {
+    s.neck_half = dice.range(7.5, 11);
+    s.shoulder_half = dice.range(18, 22);
+    s.shoulder_drop = dice.range(2.5, 4.5);
+    s.neck_depth = dice.range(7, 15);
+    s.armhole_depth = dice.range(21, 26);
+    s.chest = std::max(dice.range(43, 58), 2 * s.shoulder_half + 5);
+    s.hem = s.chest * dice.range(0.92, 1.05);
+    s.length = dice.range(56, 70);
+    s.sleeve_length = dice.range(50, 60);
+    s.sleeve_angle = dice.range(20, 45);
+    s.cuff_width = dice.range(8, 11);
+    s.hem_rib = dice.pick(2) == 0 ? 0 : dice.range(4, 7);
+  } else {
+    s.chest = dice.range(30, 44);
+    s.length = dice.range(36, 75);
+    s.hip = s.chest + dice.range(8, 12);
+    s.hem = dice.pick(2) == 0 ? s.hip * dice.range(0.98, 1.1) : s.hip * dice.range(1.3, 1.8);
+    s.gathers = s.hem > 1.3 * s.hip ? dice.range(0.5, 1) : 0;
+    s.waistband = dice.range(2.5, 4.5);
+    s.hem_curve = s.gathers > 0 ? dice.range(2, 5) : dice.range(0.2, 1);
+  }
+  s.fabric = static_cast<Fabric2d>(dice.pick(garment == GarmentKind::skirt ? 7 : 6));
+  s.pattern = dice.range(1.6, 4);
+  s.motif = garment != GarmentKind::skirt && s.fabric == Fabric2d::plain && dice.pick(2) == 0;
+  s.creases = dice.range(0.4, 1.3);
+  s.tilt = dice.range(-3, 3);
+  s.falloff = dice.range(0, 0.22);
+  s.grain = dice.range(0.3, 1.5);
+  s.shadow = dice.range(0.4, 1);
+  s.noise = dice.range(0.5, 5);
+  const double grey = dice.pick(2) == 0 ? dice.range(205, 242) : dice.range(24, 62);
+  s.board = {grey + dice.range(-6, 6), grey + dice.range(-6, 6), grey + dice.range(-6, 6)};
+  // Shops choose a board on which the garment shows.
+  do {
+    s.colour = random_colour(dice);
+    s.second = random_colour(dice);
+    s.third = random_colour(dice);
+    s.trim = random_colour(dice);
+  } while (contrast(s) < 70);
+  s.width = garment == GarmentKind::long_sleeve ? 540 : 450;
+  s.height = garment == GarmentKind::long_sleeve ? 470 : 550;
+  s.fill = dice.range(0.72, 0.9);
+  return s;
+}
+
+}  // namespace vitrine::support

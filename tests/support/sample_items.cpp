@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sample_items.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace vitrine::support {
+namespace {
+
+PhotoSpec sailor_vest() {
+  PhotoSpec s;
+  s.seed = 11;
+  s.neck_depth = 14;
+  s.fabric = Fabric2d::stripes;
+  s.colour = {240, 233, 217};
+  s.second = {44, 84, 156};
+  s.trim = {44, 84, 156};
+  s.pattern = 2.5;
+  s.board = {50, 49, 50};
+  s.tilt = 1.2;
+  return s;
+}
+
+PhotoSpec terracotta_vest() {
+  PhotoSpec s;
+  s.seed = 23;
+  s.neck = NeckKind::v;
+  s.neck_half = 9;
+  s.neck_depth = 19;
+  s.shoulder_half = 15.5;
+  s.chest = 46.5;
+  s.hem = 48;
+  s.length = 58;
+  s.colour = {190, 88, 56};
+  s.trim = {168, 70, 44};
+  s.rib = 2;
+  s.hem_rib = 4.5;
+  s.board = {232, 227, 219};
+  s.tilt = -0.8;
+  return s;
+}
+
+PhotoSpec prism_long_sleeve() {
+  PhotoSpec s;
+  s.garment = GarmentKind::long_sleeve;
+  s.seed = 37;
+  s.neck_half = 9;
+  s.neck_depth = 9;
+  s.shoulder_half = 20;
+  s.shoulder_drop = 3.4;
+  s.armhole_depth = 24;
+  s.chest = 49;
+  s.hem = 48.5;
+  s.length = 64;
+  s.sleeve_angle = 27;
+  s.colour = {38, 52, 98};
+  s.second = {242, 240, 234};
+  s.trim = {34, 46, 88};
+  s.motif = true;
+  s.width = 1100;
+  s.height = 920;
+  s.fill = 0.88;
+  s.board = {226, 226, 225};
+  s.tilt = 0.7;
+  return s;
+}
+
+PhotoSpec mustard_long_sleeve() {
+  PhotoSpec s = prism_long_sleeve();
+  s.seed = 41;
+  s.neck = NeckKind::square;
+  s.neck_half = 10;
+  s.neck_depth = 10.5;
+  s.motif = false;
+  s.chest = 50;
+  s.hem = 47;
+  s.length = 60;
+  s.sleeve_angle = 31;
+  s.sleeve_length = 55;
+  s.fabric = Fabric2d::heather;
+  s.colour = {210, 150, 44};
+  s.second = {240, 208, 130};
+  s.trim = {204, 142, 38};
+  s.rib = 2.2;
+  s.hem_rib = 5.5;
+  s.creases = 1.1;
+  s.board = {52, 56, 62};
+  s.tilt = -1.1;
+  return s;
+}
+
+PhotoSpec denim_skirt() {
+  PhotoSpec s;
+  s.garment = GarmentKind::skirt;
+  s.seed = 53;
+  s.chest = 35;
+  s.hip = 45;
+  s.hip_depth = 17;
+  s.hem = 46;
+  s.length = 42;
+  s.hem_curve = 0.5;
+  s.fabric = Fabric2d::denim;
+  s.colour = {60, 88, 134};
+  s.second = {142, 170, 204};
+  s.trim = {58, 84, 128};
+  s.creases = 0.8;
+  s.width = 960;
+  s.height = 900;
+  s.fill = 0.82;
+  s.board = {234, 230, 223};
+  s.tilt = 0.5;
+  return s;
+}
+
+PhotoSpec floral_skirt() {
+  PhotoSpec s;
+  s.garment = GarmentKind::skirt;
+  s.seed = 67;
+  s.chest = 34.5;
+  s.hip = 48;
+  s.hem = 78;
+  s.length = 66;
+  s.hem_curve = 4.5;
+  s.waistband = 3.2;
+  s.gathers = 0.8;
+  s.creases = 0.7;
+  s.fabric = Fabric2d::floral;
+  s.colour = {206, 124, 126};
+  s.second = {250, 240, 226};
+  s.third = {136, 150, 104};
+  s.trim = {200, 114, 118};
+  s.pattern = 4.4;
+  s.width = 1040;
+  s.height = 980;
+  s.board = {46, 48, 52};
+  s.tilt = -0.6;
+  return s;
+}
+
+const char* name_of(GarmentKind kind) {
+  return kind == GarmentKind::vest ? "vest" : kind == GarmentKind::long_sleeve ? "long_sleeve" : "skirt";
+}
+
+}  // namespace
+
+const std::vector<SampleItem>& sample_items() {
+  static const std::vector<SampleItem> items{
+      {"vest-sailor", "auto", "", "Sailor vest, cream and marine stripes", sailor_vest()},
+      {"vest-terracotta", "auto", "", "Ribbed V-neck vest, terracotta", terracotta_vest()},
+      {"long-sleeve-sunrise", "auto", "", "Long-sleeved top with sunrise print, navy", prism_long_sleeve()},
+      {"long-sleeve-mustard", "auto", "", "Square-neck sweatshirt, mustard melange", mustard_long_sleeve()},
+      {"skirt-denim", "auto", "", "Denim mini skirt, washed blue", denim_skirt()},
+      {"skirt-garden", "auto", "", "Flared midi skirt with garden print, \"Rosa\"", floral_skirt()},
+  };
+  return items;
+}
+
+std::string sample_manifest() {
+  std::string text =
+      "sku,garment,neckline,front,back,mirror_back,front_mask,back_mask,chest_cm,length_cm,fabric,title\n";
+  for (const SampleItem& item : sample_items()) {
+    std::string title;
+    for (const char c : item.title) title += c == '"' ? std::string("\"\"") : std::string(1, c);
+    const auto number = [](double value) {
+      const long tenths = std::lround(value * 10);
+      return std::to_string(tenths / 10) + (tenths % 10 != 0 ? "." + std::to_string(tenths % 10) : "");
+    };
+    text += item.sku + "," + name_of(item.front.garment) + "," + item.neckline + "," + item.sku + "-front.jpg," +
+            item.sku + "-back.jpg,yes,,," + number(item.front.chest) + "," + number(item.front.length) + "," +
+            item.fabric + ",\"" + title + "\"\n";
+  }
+  return text;
+}
+
+std::vector<std::uint8_t> to_jpeg(const Image& rgb, int quality) {
+  const cv::Mat view(rgb.height, rgb.width, CV_8UC3, const_cast<std::uint8_t*>(rgb.data.data()));
+  cv::Mat bgr;
+  cv::cvtColor(view, bgr, cv::COLOR_RGB2BGR);
+  std::vector<std::uint8_t> file;
+  if (!cv::imencode(".jpg", bgr, file, {cv::IMWRITE_JPEG_QUALITY, quality}))
+    throw std::runtime_error("JPEG encoder failed");
+  return file;
+}
+
+}  // namespace vitrine::support
