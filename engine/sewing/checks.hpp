@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+
+#include "cloth.hpp"
+#include "vitrine/sewing.hpp"
+
+namespace vitrine::sewing {
+
+/// Refuses what cannot be simulated: bad numbers, indices out of range, a fabric that cannot hold itself, panels that
+/// are not at the body.
+std::optional<Error> check_input(std::span<const Pattern> levels, const Positions& placed, const Fabric& fabric,
+                                 const DistanceField& body, const SewingOptions& options);
+
+/// Weight of the longest column of cloth per width [N/m]: divided by K it is the strain of the cloth under itself.
+double column_weight(const Pattern& pattern, const Fabric& fabric, double gravity);
+
+}  // namespace vitrine::sewing

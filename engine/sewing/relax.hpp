@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+
+#include "cloth.hpp"
+#include "contact.hpp"
+
+namespace vitrine::sewing {
+
+struct RelaxOptions {
+  double residual = 1e-3;       ///< [-] stop
+  int max_iterations = 60'000;  ///< budget
+  double friction = 0;          ///< [-] Coulomb
+  double step_limit = 0.02;     ///< [m] per iteration and node: nothing jumps through a limb
+  int check_every = 25;         ///< iterations between looks at the stop test
+  /// Called at each check with iteration and residual; true stops (seams closed, garment falling).
+  std::function<bool(int, double)> stop;
+};
+
+struct RelaxOutcome {
+  bool converged = false, stopped = false, finite = true;
+  int iterations = 0;
+  double residual = 0;
+  double energy = 0;
+};
+
+/// Relaxes to rest: FIRE (Bitzek et al. 2006) with fictitious masses equal to the local stiffness, so that a unit step
+/// is stable for any k and m; Coulomb friction as an impulse on the velocity. Stops on the force residual outside the
+/// friction cone, never on velocity.
+RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options);
+
+/// sum |net force| / scale over the free nodes, where friction takes up to mu N of the tangential force at nodes the
+/// body pushes. Looks at every contact sample afresh.
+double residual_of(const Cloth& cloth, Contact* contact, double friction);
+
+}  // namespace vitrine::sewing

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sew.hpp"
+
+#include <algorithm>
+
+#include "relax.hpp"
+
+namespace vitrine::sewing {
+namespace {
+
+// The pull starts gentle, so that panels travel as a whole before their borders stretch, and doubles until they meet.
+constexpr int stages = 14, stage_iterations = 400;
+constexpr double first_strain = 0.02;  // the force limit of the first stage, as a strain of the cloth at the seam
+
+}  // namespace
+
+std::vector<SeamSpring> springs_for(const Pattern& pattern, const Nodes& nodes, const std::vector<char>& weld, double k,
+                                    double cap) {
+  std::vector<SeamSpring> out;
+  for (std::size_t s = 0; s < pattern.pairs.size(); ++s) {
+    const NodePair& q = pattern.pairs[s];
+    SeamSpring z;
+    z.a = static_cast<int>(nodes[q.panel_a][q.node_a]);
+    z.b = static_cast<int>(nodes[q.panel_b][q.node_b]);
+    z.k = k;
+    z.cap = cap;
+    if (!weld[s] && z.a != z.b) out.push_back(z);
+  }
+  return out;
+}
+
+std::vector<double> gaps(const Pattern& pattern, const Positions& positions) {
+  std::vector<double> out;
+  for (const NodePair& q : pattern.pairs)
+    out.push_back((positions[q.panel_a][q.node_a] - positions[q.panel_b][q.node_b]).norm());
+  return out;
+}
+
+Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, const Nodes& nodes, double sheet_k,
+                    double edge_length, double meet, double step_limit) {
+  Closing out;
+  const double gravity = cloth.gravity;
+  cloth.gravity = 0;
+  const std::vector<char> none(pattern.pairs.size(), 0);
+  auto widest = [&] {
+    double most = 0;
+    for (const SeamSpring& s : cloth.seams) most = std::max(most, (cloth.at(s.a) - cloth.at(s.b)).norm());
+    return most;
+  };
+  out.k = sheet_k;
+  out.cap = first_strain * sheet_k * edge_length;
+  for (int stage = 0; stage < stages; ++stage) {
+    cloth.seams = springs_for(pattern, nodes, none, out.k, out.cap);
+    if (cloth.seams.empty()) break;
+    RelaxOptions o;
+    o.residual = 0;
+    o.max_iterations = stage_iterations;
+    o.step_limit = step_limit;
+    o.check_every = 10;
+    o.stop = [&](int, double) { return widest() < meet; };
+    const RelaxOutcome r = relax(cloth, &contact, o);
+    out.iterations += r.iterations;
+    out.finite = out.finite && r.finite;
+    if (r.stopped || !r.finite) break;
+    out.k *= 1.6;
+    out.cap *= 1.6;
+  }
+  cloth.gravity = gravity;
+  cloth.seams.clear();
+  const std::vector<double> gap = gaps(pattern, scatter(cloth, nodes));
+  for (double g : gap) {
+    out.met.push_back(g < meet);
+    if (g < meet) {
+      out.gap_met = std::max(out.gap_met, g);
+    } else {
+      out.gap_open = std::max(out.gap_open, g);
+      ++out.open;
+    }
+  }
+  return out;
+}
+
+}  // namespace vitrine::sewing

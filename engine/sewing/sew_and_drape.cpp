@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "audit.hpp"
+#include "checks.hpp"
+#include "contact.hpp"
+#include "prolong.hpp"
+#include "relax.hpp"
+#include "sew.hpp"
+#include "vitrine/sewing.hpp"
+
+namespace vitrine {
+namespace {
+
+using namespace sewing;
+
+constexpr double gap_bar = 0.003;          // [m] partners must be at least this close before they are welded
+constexpr double strain_bar = 0.35;        // [-] beyond, the garment is another garment
+constexpr double penetration_bar = 0.002;  // [m]
+
+std::string text(const char* format, double a, double b = 0) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+double mean_edge(const Pattern& p) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const PanelMesh& m : p.meshes)
+    for (const Triangle& t : m.triangles)
+      for (int e = 0; e < 3; ++e, ++count) sum += (m.nodes[t[e]] - m.nodes[t[(e + 1) % 3]]).norm();
+  return std::max(sum / static_cast<double>(count), 1e-4);
+}
+
+Vec3 middle(const Cloth& c) {
+  Vec3 sum = Vec3::Zero();
+  for (int n = 0; n < c.size; ++n) sum += c.at(n);
+  return sum / c.size;
+}
+
+double height(const Pattern& p) {
+  double most = 0;
+  for (const PanelMesh& m : p.meshes) {
+    double lo = m.nodes.front().y(), hi = lo;
+    for (const Vec2& q : m.nodes) lo = std::min(lo, q.y()), hi = std::max(hi, q.y());
+    most = std::max(most, hi - lo);
+  }
+  return most;
+}
+
+/// Walks the levels; one member function per step of the story.
+class Tailor {
+ public:
+  Tailor(std::span<const Pattern> levels, const Fabric& fabric, const DistanceField& body, const SewingOptions& options)
+      : levels_(levels), fabric_(fabric), body_(body), o_(options) {
+    column_ = column_weight(levels.back(), fabric, o_.gravity);
+    sheet_ = {fabric.stretch, fabric.shear, fabric.bend};
+    if (column_ > 0 && o_.max_weight_strain > 0) {
+      // Beyond this stiffness the shape no longer moves by a millimetre, but the work grows with sqrt(k).
+      const double cap = column_ / o_.max_weight_strain;
+      if (sheet_.stretch > cap || sheet_.shear > cap) out_.stiffness_cap = cap;
+      sheet_.stretch = std::min(sheet_.stretch, cap);
+      sheet_.shear = std::min(sheet_.shear, cap);
+    }
+    k_ = std::max(sheet_.stretch, sheet_.shear);
+  }
+
+  Result<Drape> run(const Positions& placed) {
+    x_ = placed;
+    if (!sew()) return broken();
+    for (level_ = 0; level_ < static_cast<int>(levels_.size()); ++level_) {
+      if (level_ > 0) carry_to_finer();
+      if (fallen_) continue;  // keep the falling garment's shape on the finer mesh
+      if (!drape()) return broken();
+    }
+    return report();
+  }
+
+ private:
+  const Pattern& pattern() const { return levels_[level_]; }
+
+  Contact contact_for(const Cloth& cloth, double dx) const {
+    // A node's ordinary load: the column of cloth that hangs below it.
+    return make_contact(cloth, body_, o_.offset, dx, 2 * column_ * dx, k_);
+  }
+
+  /// Draws the partners together on the coarsest level.
+  bool sew() {
+    const Pattern& p = levels_.front();
+    const std::vector<char> none(p.pairs.size(), 0);
+    int count = 0;
+    const Nodes nodes = number_nodes(p, none, count);
+    const double dx = mean_edge(p);
+    Cloth cloth = build_cloth(p, nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+    push_out(cloth, body_, o_.offset);
+    Contact contact = contact_for(cloth, dx);
+    const double meet = std::min(gap_bar, std::max(0.001, 0.1 * dx));
+    closing_ = close_seams(cloth, contact, p, nodes, k_, dx, meet, std::min(0.02, dx));
+    x_ = scatter(cloth, nodes);
+    weld_ = closing_.met;
+    for (std::size_t s = 0; s < p.pairs.size(); ++s)
+      if (!weld_[s]) open_seams_.push_back(p.pairs[s].seam);
+    return closing_.finite;
+  }
+
+  void carry_to_finer() {
+    const Pattern& coarse = levels_[level_ - 1];
+    for (std::size_t p = 0; p < 2; ++p) x_[p] = prolong(coarse.meshes[p], x_[p], pattern().meshes[p]);
+    const std::vector<double> gap = gaps(pattern(), x_);
+    const double near = 0.5 * mean_edge(pattern());
+    weld_.clear();
+    for (std::size_t s = 0; s < gap.size(); ++s) {
+      // On a seam that has closed everywhere partners may only differ by the outlines' roundness between coarse nodes.
+      const int seam = pattern().pairs[s].seam;
+      const bool closed = std::find(open_seams_.begin(), open_seams_.end(), seam) == open_seams_.end();
+      weld_.push_back(closed || gap[s] < near);
+    }
+  }
+
+  bool drape() {
+    const bool last = level_ + 1 == static_cast<int>(levels_.size());
+    const double dx = mean_edge(pattern());
+    int count = 0;
+    nodes_ = number_nodes(pattern(), weld_, count);
+    Cloth cloth = build_cloth(pattern(), nodes_, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+    cloth.seams = springs_for(pattern(), nodes_, weld_, closing_.k, closing_.cap);
+    const Positions before = scatter(cloth, nodes_);
+    push_out(cloth, body_, o_.offset);
+    contact_ = contact_for(cloth, dx);
+
+    RelaxOptions r;
+    r.residual = last ? o_.residual : std::max(o_.residual, o_.coarse_residual);
+    r.max_iterations = o_.max_iterations;
+    r.friction = o_.friction ? fabric_.friction : 0;
+    r.step_limit = std::min(0.02, dx);
+    const double start = middle(cloth).y(), drop = std::max(0.3, 0.6 * height(pattern()));
+    r.stop = [&](int it, double residual) {
+      if (o_.progress && it % 100 == 0) o_.progress(level_, it, residual);
+      fallen_ = start - middle(cloth).y() > drop;
+      return fallen_;
+    };
+    const RelaxOutcome done = relax(cloth, &contact_, r);
+    x_ = scatter(cloth, nodes_);
+    out_.energy = done.energy;
+
+    LevelFigures f;
+    f.nodes = cloth.size;
+    f.iterations = done.iterations + (level_ == 0 ? closing_.iterations : 0);
+    f.residual = done.residual;
+    if (level_ > 0) {
+      double sum = 0, most = 0;
+      std::size_t number = 0;
+      for (std::size_t p = 0; p < 2; ++p)
+        for (std::size_t i = 0; i < x_[p].size(); ++i, ++number) {
+          const double moved = (x_[p][i] - before[p][i]).norm();
+          sum += moved;
+          most = std::max(most, moved);
+        }
+      f.change_mean_mm = 1000 * sum / static_cast<double>(number);
+      f.change_max_mm = 1000 * most;
+    }
+    out_.levels.push_back(f);
+    return done.finite;
+  }
+
+  Result<Drape> report() {
+    level_ = static_cast<int>(levels_.size()) - 1;
+    int count = 0;
+    nodes_ = number_nodes(pattern(), weld_, count);
+    Cloth cloth = build_cloth(pattern(), nodes_, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+    cloth.seams = springs_for(pattern(), nodes_, weld_, closing_.k, closing_.cap);
+    x_ = scatter(cloth, nodes_);
+    if (fallen_) contact_ = contact_for(cloth, mean_edge(pattern()));
+    const double mu = o_.friction ? fabric_.friction : 0;
+    out_.residual = residual_of(cloth, &contact_, mu);
+    const Strains strain = measure_strain(pattern(), x_);
+    out_.strain_p99 = strain.p99;
+    out_.strain_max = strain.most;
+    out_.penetration_mm_max = 1000 * measure_penetration(pattern(), x_, body_);
+    out_.seam_gap_mm_max = 1000 * std::max(closing_.gap_met, closing_.gap_open);
+    out_.welded = nodes_;
+    out_.positions = x_;
+    judge();
+    list_effects(detect_self_contact(pattern(), nodes_, x_));
+    return std::move(out_);
+  }
+
+  /// The gravest finding names the status.
+  void judge() {
+    if (fallen_) {
+      out_.status = "NOT_SUPPORTED";
+      out_.detail = "Nothing holds the garment: it slid off the body and kept falling.";
+    } else if (closing_.open > 0) {
+      out_.status = "SEAM_OPEN";
+      out_.detail =
+          text("%.0f sewn pairs did not meet; the widest gap is %.1f mm.", closing_.open, 1000 * closing_.gap_open);
+    } else if (out_.penetration_mm_max > 1000 * penetration_bar) {
+      out_.status = "INSIDE_BODY";
+      out_.detail = text("The cloth lies up to %.1f mm inside the body.", out_.penetration_mm_max);
+    } else if (out_.strain_p99 > strain_bar) {
+      out_.status = "OVERSTRETCHED";
+      out_.detail = text(
+          "One edge in a hundred is stretched or squeezed by more than %.0f %%: the garment is too small "
+          "for this body or its fabric too soft.",
+          100 * out_.strain_p99);
+    } else if (!(out_.residual <= 1.05 * o_.residual)) {
+      out_.status = "NOT_CONVERGED";
+      out_.detail = text("The forces are balanced to r = %.2g of the weight, not to %.2g.", out_.residual, o_.residual);
+    } else {
+      out_.status = "OK";
+    }
+  }
+
+  void list_effects(const SelfContact& self) {
+    out_.modelled = {"tension and shear springs (paper eq. (2)), k spread over the mesh by area", "weight by area",
+                     "seams drawn together and welded", "contact with the voxel body at the skin offset"};
+    auto& modelled = out_.modelled;
+    auto& skipped = out_.skipped;
+    if (o_.bending && sheet_.bend > 0) {
+      modelled.push_back("bending, also across seams");
+    } else {
+      skipped.push_back(o_.bending ? "bending: the fabric's bending stiffness is 0" : "bending: switched off");
+    }
+    if (o_.friction && fabric_.friction > 0) {
+      modelled.push_back("Coulomb friction with the body, quasi-static");
+    } else {
+      skipped.push_back(o_.friction ? "friction: the fabric's coefficient is 0" : "friction: switched off");
+    }
+    if (out_.stiffness_cap > 0)
+      skipped.push_back(
+          text("stiffness above %.4g N/m: the shape would move by less than a millimetre", out_.stiffness_cap));
+    skipped.push_back("motion: only the rest shape is computed");
+    if (self.close == 0 && self.crossed == 0) {
+      skipped.push_back("self-contact: the body parts front and back, and no two places of them touch");
+    } else {
+      const std::string found = text("%.0f places of front and back touch", self.close) +
+                                text(" and %.0f have crossed, by up to %.1f mm", self.crossed, 1000 * self.depth);
+      skipped.push_back("self-contact: the body parts front and back almost everywhere, but " + found);
+      if (!out_.detail.empty()) out_.detail += " ";
+      out_.detail += "Self-contact is not modelled: " + found + ".";
+    }
+  }
+
+  Error broken() const {
+    return {Cause::internal, "NOT_FINITE",
+            "the relaxation left the range of numbers on level " + std::to_string(level_) + ".",
+            "Report the garment and fabric that did this; another edge length may avoid it.", "sewing"};
+  }
+
+  std::span<const Pattern> levels_;
+  const Fabric& fabric_;
+  const DistanceField& body_;
+  const SewingOptions& o_;
+  SheetStiffness sheet_;
+  double column_ = 0, k_ = 0;
+  Positions x_;
+  Nodes nodes_;
+  std::vector<char> weld_;
+  std::vector<int> open_seams_;
+  Closing closing_;
+  Contact contact_;
+  int level_ = 0;
+  bool fallen_ = false;
+  Drape out_;
+};
+
+}  // namespace
+
+Result<Drape> sew_and_drape(std::span<const Pattern> levels, const std::vector<std::vector<Vec3>>& placed,
+                            const Fabric& fabric, const DistanceField& body, const SewingOptions& options) {
+  if (auto e = sewing::check_input(levels, placed, fabric, body, options)) return *e;
+  return Tailor(levels, fabric, body, options).run(placed);
+}
+
+}  // namespace vitrine
