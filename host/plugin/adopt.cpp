@@ -152,14 +152,14 @@ Result<AdoptedPlugin> adopt(const void* entry, const std::string& file) {
     const auto garments = read_span(table.garments, 0, 64, "the plugin's garments");
     const auto necklines = read_span(table.necklines, 0, 64, "the plugin's necklines");
     if (garments.empty() && necklines.empty()) throw Broken{"entry.content", "it brings no garment and no neckline"};
-    adoption::Names ids("garment or neckline");
+    adoption::Names garment_ids("garment"), neckline_ids("neckline");
     for (const vitrine_garment& row : garments) {
       plugin.garments.push_back(adoption::copy_garment(row, plugin.identity));
-      ids.add(plugin.garments.back().id, "the plugin");
+      garment_ids.add(plugin.garments.back().id, "the plugin");
     }
     for (const vitrine_neckline& row : necklines) {
       plugin.necklines.push_back(adoption::copy_neckline(row, plugin.identity));
-      ids.add(plugin.necklines.back().id, "the plugin");
+      neckline_ids.add(plugin.necklines.back().id, "the plugin");
     }
   } catch (const Broken& broken) {
     return error_of(broken, plugin.identity.id, file);
