@@ -24,7 +24,8 @@ struct MeshStats {
 /// Uniform mesh of a simple polygon (paper III.B): magnet node insertion, constrained Delaunay triangulation,
 /// edge-ratio rules. The outline's own nodes and segments are kept exactly: nodes [0, outline.size()) are the outline.
 /// Edge ratio = (sum of the two shorter edges) / longest: 1 flat, 2 equilateral.
-/// Errors (65): DEGENERATE_OUTLINE (self-crossing, repeated points, zero area, non-finite), TOO_MANY_NODES.
+/// Errors (65): DEGENERATE_OUTLINE (self-crossing, repeated points, zero area, non-finite), TOO_MANY_NODES; (64):
+/// BAD_SETTING. Either winding is taken; triangles are counter-clockwise.
 Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options = {});
 
 /// Quality figures of any panel mesh.

@@ -26,9 +26,13 @@ struct Panels {
   std::vector<std::string> warnings;
 };
 
+/// Template edges run clockwise in the picture, a panel's outline counter-clockwise: PanelEdge::first is the node of
+/// the template edge's `to` feature and PanelEdge::last that of its `from` feature, on both panels alike.
+///
 /// Features to panels in metres: scaled, set upright, outline between features resampled so that the two edges of each
 /// seam have the same number of nodes (by arc length).
-/// Errors (65): FRONT_BACK_MISMATCH, DEGENERATE_OUTLINE; (64): measurements out of range.
+/// Errors (65): FRONT_BACK_MISMATCH, DEGENERATE_OUTLINE; (64): BAD_MEASUREMENT (not within 0.05 m to 3 m),
+/// MISSING_GIRTH, BAD_SETTING; (69): BAD_TEMPLATE. Warnings begin with SEAM_LENGTH or SCALE.
 Result<Panels> make_panels(const Features& front, const Features& back, const GarmentTemplate& garment,
                            const PanelOptions& options);
 
