@@ -32,8 +32,8 @@ class Fire {
   Fire(Cloth& cloth, Contact* contact, const RelaxOptions& options)
       : c_(cloth), contact_(contact), o_(options), v_(cloth.x.size(), 0.0), f_(cloth.x.size(), 0.0) {
     update_masses();
-    // An energy rise smaller than the weight lifted by a hundredth of a millimetre is rounding, not an explosion.
-    energy_grain_ = 1e-5 * c_.scale;
+    // An energy rise smaller than the weight lifted by a tenth of a millimetre is rounding, not an explosion.
+    energy_grain_ = 1e-4 * c_.scale;
   }
 
   RelaxOutcome run() {
@@ -116,21 +116,23 @@ class Fire {
 
   /// Energy may fall, or turn into the fictitious motion's; when the sum rises, the step was too long.
   void watch(double energy) {
-    const double total = energy + 0.5 * vv_;
+    // What symplectic Euler keeps exactly for a spring; plain energy would swing by half with stiff springs.
+    const double total = energy + 0.5 * vv_ + 0.5 * dt_ * power_;
     if (!ceiling_known_) {
       ceiling_ = total;
+      lowest_ = energy;
       ceiling_known_ = true;
       return;
     }
-    const double slack = 0.01 * (std::abs(ceiling_ - energy) + 0.5 * vv_) + energy_grain_;
-    if (total > ceiling_ + slack) {
+    lowest_ = std::min(lowest_, energy);
+    // A tenth of what was gained: growing steps and clamped steps shift the sum a little; an explosion doubles it.
+    if (total > ceiling_ + 0.1 * (ceiling_ - lowest_) + energy_grain_) {
       dt_cap_ = std::max(dt_least, 0.5 * dt_cap_);
       halt();
-      ceiling_ = energy;
+      ceiling_known_ = false;
       calm_ = 0;
-    } else {
-      ceiling_ = std::min(ceiling_, total);
-      if (++calm_ % 200 == 0) dt_cap_ = std::min(dt_most, 1.2 * dt_cap_);
+    } else if (++calm_ % 20 == 0) {
+      dt_cap_ = std::min(dt_most, 1.2 * dt_cap_);
     }
   }
 
@@ -194,7 +196,7 @@ class Fire {
   std::vector<double> v_, f_, mass_;
   double dt_ = dt_start, dt_cap_ = dt_most, alpha_ = alpha_start;
   double power_ = 0, ff_ = 0, vv_ = 0;
-  double ceiling_ = 0, energy_grain_ = 0;
+  double ceiling_ = 0, lowest_ = 0, energy_grain_ = 0;
   bool ceiling_known_ = false;
   int uphill_free_ = 0, calm_ = 0;
 };
