@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exception>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "vitrine/export.hpp"
+
+namespace vitrine {
+namespace {
+
+Error bad_image(const std::string& message) {
+  return {Cause::internal, "BAD_IMAGE", message, "Report this with the input that caused it.", "export"};
+}
+
+Result<Bytes> encode(const Image& image, const char* extension, const std::vector<int>& parameters) {
+  const bool channels = image.channels == 1 || image.channels == 3 || image.channels == 4;
+  if (!channels || image.width <= 0 || image.height <= 0 || image.width > 65'500 || image.height > 65'500 ||
+      image.data.size() != static_cast<std::size_t>(image.width) * image.height * image.channels)
+    return bad_image("A picture to be written is not whole.");
+  try {
+    // OpenCV's own order is BGR.
+    const cv::Mat view(image.height, image.width, CV_8UC(image.channels), const_cast<std::uint8_t*>(image.data.data()));
+    cv::Mat turned = view;
+    if (image.channels == 3) cv::cvtColor(view, turned, cv::COLOR_RGB2BGR);
+    if (image.channels == 4) cv::cvtColor(view, turned, cv::COLOR_RGBA2BGRA);
+    Bytes bytes;
+    if (!cv::imencode(extension, turned, bytes, parameters)) return bad_image("A picture could not be encoded.");
+    return bytes;
+  } catch (const std::exception& e) {
+    return bad_image(std::string("A picture could not be encoded: ") + e.what());
+  }
+}
+
+}  // namespace
+
+Result<Bytes> encode_png(const Image& image) {
+  return encode(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 6});
+}
+
+Result<Bytes> encode_jpeg(const Image& image, int quality) {
+  if (quality < 1 || quality > 100)
+    return Error{Cause::usage, "BAD_QUALITY", "JPEG quality " + std::to_string(quality) + " is out of range.",
+                 "Use 1 to 100.", "export"};
+  if (image.channels == 4) return bad_image("A JPEG has no alpha channel.");
+  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality});
+}
+
+}  // namespace vitrine

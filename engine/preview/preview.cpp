@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vitrine/preview.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "camera.hpp"
+#include "sampling.hpp"
+#include "studio.hpp"
+#include "tracer.hpp"
+
+namespace vitrine {
+namespace {
+
+std::optional<Error> check_options(const PreviewOptions& o) {
+  const bool size = o.view_width >= 16 && o.view_width <= 8192 && o.view_height >= 16 && o.view_height <= 8192;
+  const bool rays = o.samples >= 1 && o.samples <= 256 && o.occlusion_rays >= 0 && o.occlusion_rays <= 1024;
+  const bool automatic = o.frame_bottom < 0 && o.frame_top < 0;
+  const bool frame = automatic || (std::isfinite(o.frame_bottom) && std::isfinite(o.frame_top) &&
+                                   o.frame_top - o.frame_bottom > 1e-3 && o.frame_top - o.frame_bottom < 1e3);
+  if (size && rays && frame) return std::nullopt;
+  return Error{
+      Cause::usage, "BAD_PREVIEW_OPTIONS", "The preview's size, rays or frame are out of range.",
+      "Use 16 to 8192 px, 1 to 256 samples, 0 to 1024 occlusion rays and a frame whose top is above its bottom.",
+      "preview"};
+}
+
+std::optional<Error> check_mesh(const RenderMesh& m) {
+  bool good = !m.positions.empty() && !m.triangles.empty() && m.normals.size() == m.positions.size();
+  good = good && (m.texture.empty() || (m.uv.size() == m.positions.size() && m.texture.channels == 3 &&
+                                        m.texture.data.size() == 3 * static_cast<std::size_t>(m.texture.width) *
+                                                                     static_cast<std::size_t>(m.texture.height)));
+  for (const Triangle& t : m.triangles) good = good && std::max({t[0], t[1], t[2]}) < m.positions.size();
+  for (const Vec3& p : m.positions) good = good && p.allFinite() && p.cwiseAbs().maxCoeff() < 1e3;
+  for (const Vec3& n : m.normals) good = good && n.allFinite();
+  for (const Vec2& t : m.uv) good = good && t.allFinite();
+  if (good) return std::nullopt;
+  return Error{Cause::internal, "BAD_MESH",
+               "Mesh \"" + m.name + "\" cannot be drawn: it is empty or contradicts itself.",
+               "Report this with the photos that caused it.", "preview"};
+}
+
+}  // namespace
+
+Result<Image> render_preview(std::span<const RenderMesh> meshes, const PreviewOptions& options) {
+  if (auto error = check_options(options)) return *error;
+  if (meshes.empty()) return Error{Cause::internal, "BAD_MESH", "There is no mesh to draw.", "Report this.", "preview"};
+  for (const RenderMesh& mesh : meshes)
+    if (auto error = check_mesh(mesh)) return *error;
+  const Framing framing = frame_subject(meshes, options);
+  const auto tracer = Tracer::build(meshes);
+  if (!tracer) return tracer.error();
+  const Studio studio(meshes, *tracer, framing, options);
+
+  Image picture(options.view_width * static_cast<int>(framing.cameras.size()), options.view_height, 3);
+  // The same places in every pixel keep edges even.
+  const Sequence places(0, 0, 0);
+  for (std::size_t view = 0; view < framing.cameras.size(); ++view)
+    for (int y = 0; y < options.view_height; ++y)
+      for (int x = 0; x < options.view_width; ++x) {
+        const int column = static_cast<int>(view) * options.view_width + x;
+        Colour sum = Colour::Zero();
+        for (int s = 0; s < options.samples; ++s) {
+          const Vec2 place = places.point(s);
+          const Vec2 film = framing.top_left + framing.pixel * Vec2(x + place.x(), -(y + place.y()));
+          sum += studio.look(framing.cameras[view], film, column, y, s);
+        }
+        sum /= static_cast<float>(options.samples);
+        std::uint8_t* out = picture.at(column, y);
+        for (int c = 0; c < 3; ++c) out[c] = linear_to_srgb(sum[c]);
+      }
+  return picture;
+}
+
+}  // namespace vitrine

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tracer.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <limits>
+#include <new>
+
+namespace vitrine {
+
+struct Tracer::Scene {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  ~Scene() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+namespace {
+
+Error failed(const std::string& message) {
+  return {Cause::internal, "PREVIEW_FAILED", message, "Report this with the photos that caused it.", "preview"};
+}
+
+void set_ray(RTCRay& ray, const Vec3& from, const Vec3& direction, float near, float far) {
+  ray.org_x = static_cast<float>(from.x());
+  ray.org_y = static_cast<float>(from.y());
+  ray.org_z = static_cast<float>(from.z());
+  ray.dir_x = static_cast<float>(direction.x());
+  ray.dir_y = static_cast<float>(direction.y());
+  ray.dir_z = static_cast<float>(direction.z());
+  ray.tnear = near;
+  ray.tfar = far;
+  ray.time = 0;
+  ray.mask = std::numeric_limits<unsigned>::max();
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+}  // namespace
+
+Result<Tracer> Tracer::build(std::span<const RenderMesh> meshes) {
+  auto held = std::make_shared<Scene>();
+  // SSE2 everywhere: the wider kernels round differently, and the same picture is wanted on every machine.
+  held->device = rtcNewDevice("threads=1,isa=sse2");
+  if (!held->device) return failed("Embree could not be started.");
+  held->scene = rtcNewScene(held->device);
+  rtcSetSceneFlags(held->scene, RTC_SCENE_FLAG_ROBUST);
+  for (unsigned m = 0; m < meshes.size(); ++m) {
+    const RenderMesh& mesh = meshes[m];
+    RTCGeometry geometry = rtcNewGeometry(held->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), mesh.positions.size()));
+    auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                   3 * sizeof(unsigned), mesh.triangles.size()));
+    if (!points || !corners) {
+      rtcReleaseGeometry(geometry);
+      return failed("Embree found no memory for the preview.");
+    }
+    for (const Vec3& p : mesh.positions)
+      for (int i = 0; i < 3; ++i) *points++ = static_cast<float>(p[i]);
+    for (const Triangle& t : mesh.triangles)
+      for (std::uint32_t v : t) *corners++ = v;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(held->scene, geometry, m);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(held->scene);
+  if (rtcGetDeviceError(held->device) != RTC_ERROR_NONE) return failed("Embree could not take the meshes.");
+  return Tracer(std::move(held));
+}
+
+std::optional<Hit> Tracer::first_hit(const Vec3& from, const Vec3& direction) const {
+  RTCRayHit query{};
+  set_ray(query.ray, from, direction, 0.0F, std::numeric_limits<float>::infinity());
+  query.hit.geomID = query.hit.primID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect1(scene_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return Hit{query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+}
+
+bool Tracer::blocked(const Vec3& from, const Vec3& direction, double reach) const {
+  RTCRay ray{};
+  set_ray(ray, from, direction, 0.0F, static_cast<float>(reach));
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_->scene, &context, &ray);
+  return ray.tfar < 0;  // Embree's sign for "something is in the way"
+}
+
+}  // namespace vitrine

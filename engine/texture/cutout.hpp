@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <opencv2/core.hpp>
+
+#include "vitrine/model/result.hpp"
+#include "vitrine/texture.hpp"
+
+namespace vitrine {
+
+/// A panel's region of its photo, every pixel of it garment-coloured. Photo pixel (x, y) is the centre of cutout pixel
+/// (x - left, y - top).
+struct Cutout {
+  cv::Mat rgb;  ///< CV_8UC3
+  int left = 0, top = 0;
+  std::vector<Vec2> pixels;  ///< per node: position in the photo [px], integers are pixel centres
+  double density = 0;        ///< [px/m] of the photo along the panel
+};
+
+/// Crops the box of the panel's nodes plus `margin` photo pixels and replaces everything that is not the panel's outer
+/// face by colours from a little inside its edge.
+Result<Cutout> cut_out(const TextureSource& source, int margin);
+
+}  // namespace vitrine
