@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "clean.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace vitrine {
+namespace {
+
+cv::Mat disc(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+}
+
+}  // namespace
+
+cv::Mat main_piece(const cv::Mat& mask, double* second) {
+  cv::Mat labels, stats, centres;
+  const int n = cv::connectedComponentsWithStats(mask, labels, stats, centres, 4, CV_32S);
+  if (second) *second = 0;
+  if (n < 2) return cv::Mat::zeros(mask.size(), CV_8U);
+  // The distance transform's peaks tell a compact piece from a frame of clutter of the same area.
+  std::vector<double> weight(n, 0);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) {
+      const double u = 2.0 * x / mask.cols - 1, v = 2.0 * y / mask.rows - 1;
+      weight[labels.at<int>(y, x)] += std::max(0.05, 1 - 0.5 * (u * u + v * v));
+    }
+  weight[0] = 0;
+  const int best = static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+  if (second)
+    for (int k = 1; k < n; ++k)
+      if (k != best)
+        *second = std::max(
+            *second, static_cast<double>(stats.at<int>(k, cv::CC_STAT_AREA)) / stats.at<int>(best, cv::CC_STAT_AREA));
+  return labels == best;
+}
+
+cv::Mat without_loose_ends(const cv::Mat& mask, int radius) {
+  if (radius < 1) return mask.clone();
+  cv::Mat core, near_core, thin, labels, stats, centres;
+  cv::Mat padded;
+  cv::copyMakeBorder(mask, padded, radius + 2, radius + 2, radius + 2, radius + 2, cv::BORDER_CONSTANT, 0);
+  cv::morphologyEx(padded, core, cv::MORPH_OPEN, disc(radius));
+  core = main_piece(core);
+  cv::dilate(core, near_core, disc(1));
+  thin = padded & ~core;
+  const int n = cv::connectedComponentsWithStats(thin, labels, stats, centres, 8, CV_32S);
+  cv::Mat out = core.clone();
+  for (int k = 1; k < n; ++k) {
+    const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP),
+                       stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
+    const cv::Rect around =
+        cv::Rect(box.x - 2, box.y - 2, box.width + 4, box.height + 4) & cv::Rect(0, 0, padded.cols, padded.rows);
+    const cv::Mat piece = labels(around) == k;
+    cv::Mat touch, touch_labels;
+    touch = near_core(around) & piece;
+    const int roots = cv::connectedComponents(touch, touch_labels, 8, CV_32S) - 1;
+    if (roots == 0) continue;
+    // Corners and ripples of the outline that the opening rounded off reach no further than the disc does.
+    cv::Mat away;
+    cv::distanceTransform(~core(around), away, cv::DIST_L2, 3);
+    double reach = 0;
+    cv::minMaxLoc(away, nullptr, &reach, nullptr, nullptr, piece);
+    const bool bridge = roots >= 2 && reach > 2.0 * radius;
+    if (bridge || reach <= 2.0 * radius) out(around).setTo(255, piece);
+  }
+  return main_piece(out(cv::Rect(radius + 2, radius + 2, mask.cols, mask.rows)));
+}
+
+cv::Mat fill_enclosed(const cv::Mat& mask, const cv::Mat& ground_like) {
+  cv::Mat padded, labels, stats, centres;
+  cv::copyMakeBorder(~mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 255);
+  const int n = cv::connectedComponentsWithStats(padded, labels, stats, centres, 4, CV_32S);
+  labels = labels(cv::Rect(1, 1, mask.cols, mask.rows));
+  const int outside_label = cv::Mat(labels).empty() ? 0 : [&] {
+    cv::Mat all;
+    cv::connectedComponents(padded, all, 4, CV_32S);
+    return all.at<int>(0, 0);
+  }();
+  cv::Mat solid = labels != outside_label, depth;
+  cv::copyMakeBorder(solid, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::distanceTransform(padded, depth, cv::DIST_L2, 5);
+  const double area = std::max(1, cv::countNonZero(solid)), size = std::sqrt(area);
+  cv::Mat out = solid.clone();
+  for (int k = 1; k < n; ++k) {
+    if (k == outside_label) continue;
+    const cv::Mat hole = labels == k;
+    const double hole_area = cv::countNonZero(hole);
+    if (hole_area < 0.0008 * area) continue;
+    const double like = cv::countNonZero(hole & ground_like) / hole_area;
+    double nearest = 1e9;
+    for (int y = 0; y < mask.rows; ++y)
+      for (int x = 0; x < mask.cols; ++x)
+        if (hole.at<std::uint8_t>(y, x))
+          nearest = std::min(nearest, static_cast<double>(depth.at<float>(y + 1, x + 1)));
+    if (like > 0.6 && nearest < 0.16 * size) out.setTo(0, hole);
+  }
+  return out;
+}
+
+}  // namespace vitrine

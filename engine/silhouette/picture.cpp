@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "picture.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace vitrine {
+
+cv::Mat view(const Image& image) {
+  return cv::Mat(image.height, image.width, CV_8UC(image.channels), const_cast<std::uint8_t*>(image.data.data()));
+}
+
+cv::Mat lab_from_rgb(const cv::Mat& rgb) {
+  cv::Mat real, lab;
+  rgb.convertTo(real, CV_32FC3, 1.0 / 255.0);
+  cv::cvtColor(real, lab, cv::COLOR_RGB2Lab);
+  return lab;
+}
+
+cv::Mat sobel_magnitude(const cv::Mat& rgb) {
+  cv::Mat gx, gy;
+  cv::Sobel(rgb, gx, CV_32F, 1, 0, 3);
+  cv::Sobel(rgb, gy, CV_32F, 0, 1, 3);
+  cv::Mat out(rgb.size(), CV_32F);
+  for (int y = 0; y < rgb.rows; ++y)
+    for (int x = 0; x < rgb.cols; ++x) {
+      const cv::Vec3f a = gx.at<cv::Vec3f>(y, x), b = gy.at<cv::Vec3f>(y, x);
+      float best = 0;
+      for (int c = 0; c < 3; ++c) best = std::max(best, a[c] * a[c] + b[c] * b[c]);
+      out.at<float>(y, x) = std::sqrt(best);
+    }
+  return out;
+}
+
+float percentile(const cv::Mat& values, const cv::Mat& mask, double share) {
+  std::vector<float> v;
+  for (int y = 0; y < values.rows; ++y)
+    for (int x = 0; x < values.cols; ++x)
+      if (mask.at<std::uint8_t>(y, x)) v.push_back(values.at<float>(y, x));
+  if (v.empty()) return 0;
+  const auto k = static_cast<std::size_t>(share * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), v.begin() + k, v.end());
+  return v[k];
+}
+
+cv::Mat border_band(cv::Size size, int width) {
+  cv::Mat band(size, CV_8U, cv::Scalar(255));
+  const cv::Rect inner(width, width, size.width - 2 * width, size.height - 2 * width);
+  if (inner.width > 0 && inner.height > 0) band(inner).setTo(0);
+  return band;
+}
+
+cv::Mat contour_of(const cv::Mat& mask) {
+  cv::Mat smaller;
+  cv::erode(mask, smaller, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  return mask & ~smaller;
+}
+
+cv::Mat local_mean(const cv::Mat& picture, const cv::Mat& mask, int radius, cv::Mat& weight) {
+  const cv::Size window(2 * radius + 1, 2 * radius + 1);
+  cv::Mat masked = cv::Mat::zeros(picture.size(), picture.type()), ones, mean;
+  picture.copyTo(masked, mask);
+  mask.convertTo(ones, CV_32F, 1.0 / 255.0);
+  cv::boxFilter(masked, mean, CV_32F, window, {-1, -1}, true, cv::BORDER_CONSTANT);
+  cv::boxFilter(ones, weight, CV_32F, window, {-1, -1}, true, cv::BORDER_CONSTANT);
+  for (int y = 0; y < mean.rows; ++y)
+    for (int x = 0; x < mean.cols; ++x) {
+      const float w = weight.at<float>(y, x);
+      if (w > 1e-6f) mean.at<cv::Vec3f>(y, x) /= w;
+    }
+  return mean;
+}
+
+}  // namespace vitrine
