@@ -39,8 +39,11 @@ void add_rib(const Curve& curve, double wide, int part, const PhotoSpec& spec, c
 void add_stitches(const Curve& curve, double inset, int rows, double gap, const cv::Vec3f& thread, const Canvas& canvas,
                   Layers& layers) {
   const double half = std::max(0.045, 0.5 / canvas.scale), pace = std::max(0.34, 4.6 / canvas.scale);
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < curve.size(); ++i) length += (curve[i + 1] - curve[i]).norm();
   paint_near(curve, inset + rows * gap + 0.5, canvas, [&](int x, int y, double d, double along, bool) {
-    if (layers.face(y, x) <= 0) return;
+    // Rows run beside the curve, not round its ends.
+    if (layers.face(y, x) <= 0 || along < 0.02 || along > length - 0.02) return;
     for (int row = 0; row < rows; ++row) {
       const double off = std::abs(d - inset - row * gap);
       if (off > 0.5) continue;

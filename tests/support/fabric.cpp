@@ -55,7 +55,7 @@ cv::Vec3f fabric_at(const PhotoSpec& s, const Vec2& p, double soft, const cv::Ve
       break;
     case Fabric2d::heather: {
       const double fibre = noise(p.x() * 2.4, p.y() * 8, 21) + 0.8 * noise(p.x() * 5, p.y() * 11, 22);
-      mix(colour, second, std::clamp(0.22 + 0.30 * fibre, 0.0, 0.75));
+      mix(colour, second, std::clamp(0.20 + 0.17 * fibre, 0.0, 0.6));
       break;
     }
     case Fabric2d::stripes:
@@ -111,8 +111,10 @@ void add_fabric(const PhotoSpec& spec, const Shape& shape, const Canvas& canvas,
       Vec2 p = canvas.cm(Vec2(x, y));
       p -= warp(p, spec) - p;
       // A slope shows more cloth per pixel: patterns bend over folds.
-      p += 0.55 * canvas.scale *
-           Vec2(layers.relief(y, x + 1) - layers.relief(y, x - 1), layers.relief(y + 1, x) - layers.relief(y - 1, x));
+      const Vec2 slope =
+          0.5 * canvas.scale *
+          Vec2(layers.relief(y, x + 1) - layers.relief(y, x - 1), layers.relief(y + 1, x) - layers.relief(y - 1, x));
+      p += 0.55 * slope / (1 + 1.6 * slope.norm());
       if (const int part = layers.part(y, x); part > 0) {
         const Vec2 q = p - origin[part - 1], a = along[part - 1];
         p = Vec2(a.y() * q.x() - a.x() * q.y() + 60 * part, a.dot(q) + spec.shoulder_drop);
@@ -135,8 +137,9 @@ void add_motif(const PhotoSpec& spec, const Canvas& canvas, Layers& layers) {
       for (int x = 0; x < canvas.width; ++x)
         if (area(y, x) > 0 && layers.total(y, x) > 0) {
           const double wear = 0.93 + 0.05 * noise(x * 0.31, y * 0.31, spec.seed);
+          const Vec2 laid = canvas.cm(Vec2(x, y)), flat = 2 * laid - warp(laid, spec);
           mix(layers.colour(y, x), inked ? ink : cloth,
-              area(y, x) * share((canvas.cm(Vec2(x, y)) - centre) / grow) * (inked ? wear : 1));
+              area(y, x) * share((flat - centre) / grow) * (inked ? wear : 1));
         }
   };
   Curve sun;
@@ -154,7 +157,12 @@ void add_motif(const PhotoSpec& spec, const Canvas& canvas, Layers& layers) {
   const std::array<std::array<double, 6>, 3> peaks{
       {{-12.5, 8, -6, -3.5, 1.5, 8}, {-0.5, 8, 6.2, -2, 12.5, 8}, {-6.5, 8, 0.4, 1.2, 6.8, 8}}};
   for (const auto& k : peaks) {
-    const Curve peak{place(k[0], k[1]), place(k[2], k[3]), place(k[4], k[5])};
+    Curve peak;  // in short steps: the cloth is not laid down quite straight
+    for (int i = 0; i < 36; ++i) {
+      const int a = i / 12 * 2, b = (a + 2) % 6;
+      const double t = i % 12 / 12.0;
+      peak.push_back(place(k[a] + t * (k[b] - k[a]), k[a + 1] + t * (k[b + 1] - k[a + 1])));
+    }
     fill(
         peak, [](const Vec2&) { return 1.0; }, false);
     const double foot = k[1], top = k[3], tip = k[2];

@@ -50,7 +50,7 @@ cv::Mat1f lighting(const Layers& layers, const Canvas& canvas) {
       const double hy = 0.5 * canvas.scale * (layers.relief(y + 1, x) - layers.relief(y - 1, x));
       const double direct = std::max(0.0, Vec3(-hx, -hy, 1).normalized().dot(light)) / light.z();
       const double hollow = std::clamp(1 + 1.1 * (layers.relief(y, x) - around(y, x)), 0.55, 1.12);
-      shade(y, x) = static_cast<float>((0.25 + 0.75 * direct) * hollow);
+      shade(y, x) = static_cast<float>((0.15 + 0.85 * direct) * hollow);
     }
   return shade;
 }

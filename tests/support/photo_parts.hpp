@@ -28,6 +28,10 @@ Shape make_shape(const PhotoSpec& spec);
 /// Where an even piece of cloth would lie before it was laid down a little crookedly.
 Vec2 warp(const Vec2& p, const PhotoSpec& spec);
 
+/// Height in [-1, 1] of the hanging folds of a wide skirt. `at_hem`: where the thread through this point meets the hem
+/// [cm from the middle]; `down`: 0 at the waistband, 1 at the hem.
+double hanging_fold(double at_hem, double y, double down, const PhotoSpec& spec);
+
 /// Places the garment in the picture.
 struct Canvas {
   int width = 0, height = 0;

@@ -97,23 +97,25 @@ std::vector<Fold> folds_of_skirt(const PhotoSpec& s, Dice& dice) {
 void add_relief(const PhotoSpec& spec, const Shape& shape, const Canvas& canvas, Layers& layers) {
   const std::uint32_t seed = spec.seed * 131 + (spec.side == Side::back ? 57 : 0);
   layers.relief = cv::Mat1f(canvas.height, canvas.width, 0.0f);
+  // A little beyond the garment too, so that its border has a slope of its own and not that of a cliff.
+  cv::Mat1f near_garment;
+  cv::dilate(layers.total, near_garment, cv::Mat::ones(7, 7, CV_8U));
   // Hanging folds fan out from a point above the waist.
   const double widening = (spec.hem - spec.chest) / std::max(1.0, spec.length);
   const double apex = spec.chest / std::max(0.2, widening);
   for (int y = 0; y < canvas.height; ++y)
     for (int x = 0; x < canvas.width; ++x) {
-      if (layers.total(y, x) <= 0) continue;
+      if (near_garment(y, x) <= 0) continue;
       const Vec2 p = canvas.cm(Vec2(x, y));
-      double h = spec.creases * (0.26 * fractal_noise(p.x() / 12, p.y() / 15, 2, seed) +
-                                 0.028 * fractal_noise(p.x() / 3.1, p.y() / 3.6, 3, seed + 9));
+      double h = spec.creases * (0.40 * fractal_noise(p.x() / 11, p.y() / 14, 2, seed) +
+                                 0.05 * fractal_noise(p.x() / 3.1, p.y() / 3.6, 3, seed + 9));
       if (spec.gathers > 0) {
         const double down = std::clamp((p.y() - spec.waistband) / (spec.length - spec.waistband), 0.0, 1.0);
         const double angle = p.x() / (p.y() + apex) * (spec.length + apex);  // [cm] measured at the hem
-        const double fall = 0.35 * noise(p.x() / 20, p.y() / 22, seed + 3);
-        const double wide = noise(angle / 5.2 + fall, 0.4 * down, seed + 4);
-        const double fine = noise(angle / 2.1 + fall, 0.6 * down, seed + 5);
+        const double wide = hanging_fold(angle, p.y(), down, spec);
+        const double fine = noise(angle / 2.1, 0.6 * down, seed + 5);
         h += spec.gathers *
-             (0.75 * std::pow(down, 0.8) * wide + (0.10 + 0.10 * (1 - down)) * std::min(1.0, 6 * down) * fine);
+             (3.0 * std::pow(down, 0.8) * wide + (0.35 + 0.25 * (1 - down)) * std::min(1.0, 6 * down) * fine);
       }
       layers.relief(y, x) = static_cast<float>(h);
     }
@@ -122,7 +124,7 @@ void add_relief(const PhotoSpec& spec, const Shape& shape, const Canvas& canvas,
     const std::vector<Fold> folds =
         spec.garment == GarmentKind::skirt ? folds_of_skirt(spec, dice) : folds_of_top(spec, shape, dice);
     for (Fold fold : folds) {
-      fold.height *= spec.creases;
+      fold.height *= 1.9 * spec.creases;
       draw(fold, canvas, spec, layers);
     }
   }

@@ -121,7 +121,22 @@ Curve turned(Curve curve, double sign) {
   return curve;
 }
 
+/// The hem of a wide skirt rises and falls with its hanging folds; its corners stay.
+void wave(Curve& hem, const PhotoSpec& s) {
+  const double end = std::abs(hem.back().x());
+  for (Vec2& p : hem) {
+    const double fade = std::min(1.0, (end - std::abs(p.x())) / 6);
+    p.y() += 0.9 * s.gathers * fade * hanging_fold(p.x(), p.y(), 1, s);
+  }
+}
+
 }  // namespace
+
+double hanging_fold(double at_hem, double y, double down, const PhotoSpec& s) {
+  const std::uint32_t seed = s.seed * 131 + (s.side == Side::back ? 57 : 0);
+  const double fall = 0.35 * noise(at_hem / 20, y / 22, seed + 3);
+  return noise(at_hem / 5.2 + fall, 0.4 * down, seed + 4);
+}
 
 Vec2 warp(const Vec2& p, const PhotoSpec& s) {
   // Back and front are laid down separately.
@@ -149,6 +164,7 @@ Shape make_shape(const PhotoSpec& s) {
                               &Half::cuff, &Half::under, &Half::side, &Half::hem}) {
       Curve& curve = half[i].*part;
       curve = turned(std::move(curve), sign);
+      if (part == &Half::hem && s.gathers > 0) wave(curve, s);
       for (Vec2& p : curve) p = warp(p, s);
     }
   }

@@ -161,7 +161,7 @@ struct Tailor {
     waistband(thread);
     if (spec.side == Side::front)
       for (double y = dip + 0.5 * spec.waistband; y < spec.length - 4; y += 7.2)
-        disc({0, y}, 0.72, {240, 228, 205}, true);
+        disc({0, y}, 0.75, {112, 66, 52}, true);
     add_stitches(shape.hem, 1.6, 1, 0.42, thread, canvas, layers);
   }
 };
