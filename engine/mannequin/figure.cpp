@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hull.hpp"
+
+namespace vitrine::body {
+
+namespace {
+
+constexpr double far_away = 1.0;  ///< [m] stands for "too far to matter": more than any blend radius
+
+/// True when p is too far from the loft's box to touch any blend.
+bool beyond(const Loft& loft, const Vec3& p, double margin) {
+  for (int a = 0; a < 3; ++a)
+    if (p[a] < loft.low()[a] - margin || p[a] > loft.high()[a] + margin) return true;
+  return false;
+}
+
+Vec3 mirrored(const Vec3& p) {
+  return {-p.x(), p.y(), p.z()};
+}
+
+}  // namespace
+
+double Figure::blob(const Blob& s, const Vec3& p) {
+  const Vec3 d = p - s.centre;
+  const Vec3 r(s.x, d.y() > 0 ? s.up : s.down, s.z);
+  const Vec3 q = d.cwiseQuotient(r);
+  const double k0 = q.norm(), k1 = q.cwiseQuotient(r).norm();
+  return k1 > 1e-9 ? k0 * (k0 - 1) / k1 : -r.minCoeff();
+}
+
+double Figure::cone(const Cone& c, const Vec3& p) {
+  const Vec3 ab = c.b - c.a;
+  const double t = std::clamp((p - c.a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+  return (p - c.a - t * ab).norm() - (c.ra + t * (c.rb - c.ra));
+}
+
+/// An egg: an ellipsoid that narrows towards the chin.
+double Figure::head(const Vec3& p) const {
+  const double t = std::clamp((skull_.centre.y() - p.y()) / skull_.down, -1.0, 1.3);
+  const double narrow = t > 0 ? 1 - 0.20 * t * t : 1.0;
+  Blob egg = skull_;
+  egg.x *= narrow;
+  egg.z *= t > 0 ? 1 - 0.12 * t * t : 1.0;
+  egg.centre.z() += t > 0 ? 0.10 * skull_.z * t * t : 0.0;
+  return blob(egg, p);
+}
+
+double Figure::leg_side(const Vec3& p) const {
+  double d = beyond(leg_, p, 0.12) ? far_away : leg_.distance(p);
+  if (!beyond(foot_, p, 0.06)) d = smooth_min(d, foot_.distance(p), 0.04);
+  // The sole is the floor.
+  return p.y() < 0.05 ? smooth_max(d, -p.y(), 0.008) : d;
+}
+
+double Figure::arm_side(const Vec3& p) const {
+  double d = beyond(arm_, p, 0.12) ? far_away : arm_.distance(p);
+  if (!beyond(hand_, p, 0.05)) d = smooth_min(d, smooth_min(hand_.distance(p), cone(thumb_, p), 0.018), 0.03);
+  return d;
+}
+
+double Figure::distance(const Vec3& p) const {
+  const Vec3 q = mirrored(p);
+  double d = beyond(trunk_, p, 0.12) ? far_away : trunk_.distance(p);
+  if (breast > 1e-4 && p.z() > 0 && std::abs(p.y() - bust_height) < 0.25)
+    d = smooth_min(d, smooth_min(blob(breast_, p), blob(breast_, q), 0.03), 0.045);
+  if (p.z() < 0.05 && std::abs(p.y() - hip_height) < 0.25)
+    d = smooth_min(d, smooth_min(blob(seat_, p), blob(seat_, q), 0.05), 0.06);
+  if (p.y() < hip_height + 0.2) {
+    const double legs = smooth_min(leg_side(p), leg_side(q), 0.012);
+    d = smooth_min(d, legs, 0.05);
+  }
+  if (p.y() > bust_height - 0.05) {
+    d = smooth_min(d, smooth_min(cone(girdle_, p), cone(girdle_, q), 0.03), 0.05);
+    if (!beyond(neck_, p, 0.1)) d = smooth_min(d, neck_.distance(p), 0.035);
+    const double skull = head(p);
+    d = smooth_min(d, skull, 0.03);
+  }
+  for (const Vec3& side : {p, q}) {
+    const double arm = arm_side(side);
+    if (arm >= far_away) continue;
+    // A wide blend makes the shoulder; further down the same blend would glue arm and trunk together.
+    const double t = std::clamp((side - arm_root).dot(arm_axis) / arm_free_, 0.0, 1.0);
+    const double fade = 1 - t * t * (3 - 2 * t);
+    d = smooth_min(d, arm, 0.006 + (arm_blend_ - 0.006) * fade);
+  }
+  return d;
+}
+
+Vec3 Figure::gradient(const Vec3& p) const {
+  constexpr double h = 5e-4;
+  Vec3 g;
+  for (int a = 0; a < 3; ++a) {
+    Vec3 e = Vec3::Zero();
+    e[a] = h;
+    g[a] = (distance(p + e) - distance(p - e)) / (2 * h);
+  }
+  return g;
+}
+
+Vec3 Figure::exit(const Vec3& from, const Vec3& direction) const {
+  double inside = 0, t = 0;
+  for (int i = 0; i < 400 && t < 1.5; ++i) {
+    const double d = distance(from + t * direction);
+    if (d >= 0) break;
+    inside = t;
+    t += std::max(0.002, -0.7 * d);
+  }
+  double outside = t;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (distance(from + middle * direction) < 0 ? inside : outside) = middle;
+  }
+  return from + 0.5 * (inside + outside) * direction;
+}
+
+double Figure::tape(const Vec3& centre, const Vec3& u, const Vec3& v) const {
+  constexpr int rays = 96;
+  std::vector<Vec2> points;
+  points.reserve(rays);
+  for (int i = 0; i < rays; ++i) {
+    const double angle = 2 * std::numbers::pi * i / rays;
+    const Vec3 d = exit(centre, std::cos(angle) * u + std::sin(angle) * v) - centre;
+    points.emplace_back(d.dot(u), d.dot(v));
+  }
+  return hull_perimeter(points);
+}
+
+Vec3 Figure::leg_centre(double height) const {
+  const Section s = leg_.at(height);
+  return {s.x, height, s.z + 0.5 * (s.front - s.back)};
+}
+
+double Figure::crotch_height() const {
+  double lowest = hip_height;
+  for (double z = -0.06; z <= 0.0601; z += 0.01) {
+    if (distance({0, hip_height, z}) >= 0) continue;
+    lowest = std::min(lowest, exit({0, hip_height, z}, -Vec3::UnitY()).y());
+  }
+  return lowest;
+}
+
+}  // namespace vitrine::body

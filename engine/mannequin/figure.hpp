@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "anthropometry.hpp"
+#include "loft.hpp"
+
+namespace vitrine::body {
+
+/// What the solver turns until the tape reads what was asked for [m].
+struct Unknowns {
+  double under_bust = 0, waist = 0, hip = 0;  ///< girths of the bare trunk loft
+  double bust = 0;                            ///< what the bust adds to the under-bust: chest and breasts grow with it
+  double neck = 0;                            ///< girth of the neck loft at its base
+  double crotch = 0;                          ///< height of the trunk's lower end
+  double upper_arm = 0, forearm = 0;          ///< along the arm's axis
+};
+
+/// The built-in body as a solid: a smooth union of lofts and ellipsoids. Right is x > 0; the left is its mirror image.
+class Figure {
+ public:
+  Figure(const Measurements& m, const BodyPlan& plan, double arm_angle, const Unknowns& unknowns);
+
+  /// First-order signed distance [m], negative inside; exact only on the surface.
+  double distance(const Vec3& p) const;
+  Vec3 gradient(const Vec3& p) const;
+  /// First surface point on the ray from the inside point `from`; `from` itself if it is outside.
+  Vec3 exit(const Vec3& from, const Vec3& direction) const;
+  /// Hull perimeter of the section through `centre`, spanned by the unit vectors u and v [m].
+  double tape(const Vec3& centre, const Vec3& u, const Vec3& v) const;
+  /// Height of the lowest point of the trunk between the legs.
+  double crotch_height() const;
+  double crotch_depth() const { return crotch_z_; }
+  Vec3 leg_centre(double height) const;  ///< middle of the right leg
+  Vec3 head_centre() const { return skull_.centre; }
+
+  // Where things are; heights and points [m].
+  double bust_height = 0, under_bust_height = 0, waist_height = 0, hip_height = 0;
+  double knee_height = 0, ankle_height = 0;
+  double bust_apart = 0;                    ///< half the distance of the bust points
+  double breast = 0;                        ///< how far the breasts stand out of the chest
+  Vec3 neck_base, neck_axis, neck_forward;  ///< neck_forward lies in the neck-base plane
+  Vec3 arm_root, arm_axis, arm_across, elbow, wrist;
+  Vec3 low, high;  ///< box that holds the body
+
+ private:
+  struct Blob {
+    Vec3 centre = Vec3::Zero();
+    double x = 0, up = 0, down = 0, z = 0;  ///< radii
+  };
+  struct Cone {
+    Vec3 a = Vec3::Zero(), b = Vec3::Zero();
+    double ra = 0, rb = 0;
+  };
+  static double blob(const Blob& s, const Vec3& p);
+  static double cone(const Cone& c, const Vec3& p);
+  double head(const Vec3& p) const;
+  double leg_side(const Vec3& p) const;
+  double arm_side(const Vec3& p) const;
+  void make_trunk(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
+  void make_head(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
+  void make_leg(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
+  void make_arm(const Measurements& m, const BodyPlan& plan, const Unknowns& u, double arm_angle);
+
+  double crotch_z_ = -0.01;  ///< [m] depth at which the crotch is measured
+  double height_ = 0, hip_half_ = 0, chest_half_ = 0;
+  bool woman_ = true;
+  double arm_blend_ = 0, arm_free_ = 0;  ///< blend at the shoulder, and the way along the arm over which it fades
+  Loft trunk_, leg_, foot_, arm_, hand_, neck_;
+  Blob breast_, seat_, skull_;
+  Cone girdle_, thumb_;
+};
+
+}  // namespace vitrine::body
