@@ -15,7 +15,9 @@ constexpr int kLargestSide = 1 << 15;     // [px]
 // Lens blur, chroma subsampling and matting mix board and garment over this rim.
 constexpr float kRim = 2.0F;  // [px]
 // Share of the board in a rim pixel from which it is taken for a mixture.
-constexpr float kMixed = 0.12F;
+constexpr float kMixed = 0.08F;
+// Colours are taken from a pixel further in: a faint mixture spread over the whole bled zone would show as a line.
+constexpr float kSource = 3.0F;  // [px]
 // Blur of the bled zone: near the panel just enough to break up streaks, further out wide.
 constexpr double kNearBlur = 1.6, kFarBlur = 6.0;  // [px]
 constexpr float kFarStart = 4.0F, kFarEnd = 12.0F;
@@ -41,7 +43,7 @@ Result<bool> check(const TextureSource& s) {
 cv::Mat find_sources(const cv::Mat& outside, const cv::Mat& depth) {
   cv::Mat ridge;
   cv::dilate(depth, ridge, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
-  const cv::Mat sources = (depth > kRim) | ((depth >= ridge) & outside);
+  const cv::Mat sources = (depth > kSource) | ((depth >= ridge) & outside);
   return sources;
 }
 
@@ -77,7 +79,11 @@ void drop_mixed(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& garment
       const float way2 = way.dot(way);
       // Board and garment of the same colour: a mixture shows nothing.
       if (way2 < 12.0F * 12.0F) continue;
-      if ((cv::Vec3f(rgb.at<cv::Vec3b>(y, x)) - base).dot(way) / way2 > kMixed) keep.at<uchar>(y, x) = 0;
+      const cv::Vec3f change = cv::Vec3f(rgb.at<cv::Vec3b>(y, x)) - base;
+      const float share = change.dot(way) / way2;
+      // Off the way lies the garment's own piping or stitching.
+      const cv::Vec3f beside = change - share * way;
+      if (share > kMixed && beside.dot(beside) < 0.25F * share * share * way2 + 15.0F * 15.0F) keep.at<uchar>(y, x) = 0;
     }
 }
 
