@@ -11,15 +11,18 @@ constexpr double lipschitz = 1.2;     // trilinear interpolation of a distance m
 constexpr double middle_share = 0.5;  // middles of edges may sink to half the offset: chords cut curves, cloth does not
 
 Vec3 where(const ContactSample& s, const std::vector<double>& x) {
+  const double* a = &x[3 * s.node[0]];
+  if (s.count == 1) return {a[0], a[1], a[2]};
   Vec3 p = Vec3::Zero();
-  for (int j = 0; j < s.count; ++j) p += Vec3(x[3 * s.node[j]], x[3 * s.node[j] + 1], x[3 * s.node[j] + 2]);
-  return s.count == 1 ? p : Vec3(p / s.count);
+  for (int j = 0; j < s.count; ++j)
+    p += s.share[j] * Vec3(x[3 * s.node[j]], x[3 * s.node[j] + 1], x[3 * s.node[j] + 2]);
+  return p;
 }
 
 double travelled(const ContactSample& s, const std::vector<double>& path) {
   double sum = 0;
-  for (int j = 0; j < s.count; ++j) sum += path[s.node[j]];
-  return sum / s.count;
+  for (int j = 0; j < s.count; ++j) sum += s.share[j] * path[s.node[j]];
+  return sum;
 }
 
 }  // namespace
@@ -43,12 +46,18 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
   if (edge_length > 2 * field.spacing) {
     s.limit = middle_share * offset;
     s.count = 2;
-    for (std::size_t e = 0; e < cloth.edge_k.size(); ++e) {
-      s.node[0] = cloth.edge_a[e];
-      s.node[1] = cloth.edge_b[e];
-      c.samples.push_back(s);
-    }
+    // Long edges are looked at in three places: a wrist is as thin as they are long.
+    const int places = edge_length > 6 * field.spacing ? 3 : 1;
+    for (std::size_t e = 0; e < cloth.edge_k.size(); ++e)
+      for (int i = 1; i <= places; ++i) {
+        s.node[0] = cloth.edge_a[e];
+        s.node[1] = cloth.edge_b[e];
+        s.share[1] = static_cast<double>(i) / (places + 1);
+        s.share[0] = 1 - s.share[1];
+        c.samples.push_back(s);
+      }
     s.count = 3;
+    std::fill(s.share, s.share + 3, 1.0 / 3);
     for (const auto& t : cloth.triangles) {
       std::copy(t.begin(), t.end(), s.node);
       c.samples.push_back(s);
@@ -73,14 +82,20 @@ double contact_forces(Contact& c, const std::vector<double>& x, std::vector<doub
     // Deep inside, the push stays that of the offset's own depth: a spring over centimetres would tear the cloth.
     const double depth = std::min(-s.gap, 2 * c.offset);
     energy += s.k * depth * (-s.gap - 0.5 * depth);
-    const Vec3 push = gradient * (s.k * depth / s.count);
+    const Vec3 push = gradient * (s.k * depth);
     for (int j = 0; j < s.count; ++j)
       for (int a = 0; a < 3; ++a) {
-        force[3 * s.node[j] + a] += push[a];
-        c.normal[3 * s.node[j] + a] += push[a];
+        force[3 * s.node[j] + a] += s.share[j] * push[a];
+        c.normal[3 * s.node[j] + a] += s.share[j] * push[a];
       }
   }
   return energy;
+}
+
+void strengthen(Contact& c, double load) {
+  const double k = load / (0.5 * c.offset);
+  c.k_most = std::max(c.k_most, k);
+  for (ContactSample& s : c.samples) s.k = std::max(s.k, k);
 }
 
 bool refresh_contact(Contact& c, const std::vector<double>& x) {
@@ -98,7 +113,7 @@ void add_contact_stiffness(const Contact& c, const std::vector<double>& x, std::
   for (const ContactSample& s : c.samples) {
     // Nodes always carry their penalty, so that touching down changes no mass; middles rarely touch.
     if (s.count > 1 && c.field->distance(where(s, x)) > s.limit + 0.2 * c.offset) continue;
-    for (int j = 0; j < s.count; ++j) mass[s.node[j]] += s.k / s.count;
+    for (int j = 0; j < s.count; ++j) mass[s.node[j]] += s.k * s.share[j];
   }
 }
 

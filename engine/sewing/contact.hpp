@@ -11,9 +11,10 @@ namespace vitrine::sewing {
 /// coarser than the voxels.
 struct ContactSample {
   int node[3] = {0, 0, 0};
-  int count = 1;     ///< nodes that carry it, equally
-  double k = 0;      ///< [N/m] penalty
-  double limit = 0;  ///< [m] pushed out below this distance
+  int count = 1;                ///< nodes that carry it
+  double share[3] = {1, 0, 0};  ///< [-] barycentric place
+  double k = 0;                 ///< [N/m] penalty
+  double limit = 0;             ///< [m] pushed out below this distance
   // What the last look at the field saw; fields are 1-Lipschitz, so a sample needs no second look before it has
   // travelled through the gap.
   double gap = 0;        ///< [m] distance - limit, then
@@ -37,6 +38,10 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
 /// Adds the body's push to `force`, fills contact.normal, returns the penalty energy [J]. `fresh`: looks at every
 /// sample.
 double contact_forces(Contact& contact, const std::vector<double>& x, std::vector<double>& force, bool fresh);
+
+/// Makes the body strong enough to bear `load` [N] at any place without the cloth sinking in deeper than half the
+/// offset.
+void strengthen(Contact& contact, double load);
 
 /// Raises the penalty where a sample sinks deeper than a twentieth of the offset; true if it raised any.
 bool refresh_contact(Contact& contact, const std::vector<double>& x);

@@ -9,8 +9,9 @@ namespace vitrine::sewing {
 namespace {
 
 // The pull starts gentle, so that panels travel as a whole before their borders stretch, and doubles until they meet.
-constexpr int stages = 14, stage_iterations = 400;
+constexpr int stages = 8, stage_iterations = 500;
 constexpr double first_strain = 0.02;  // the force limit of the first stage, as a strain of the cloth at the seam
+constexpr double growth = 1.6;         // to a strain of about one half: what needs more does not fit the body
 
 }  // namespace
 
@@ -52,6 +53,7 @@ Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, cons
   for (int stage = 0; stage < stages; ++stage) {
     cloth.seams = springs_for(pattern, nodes, none, out.k, out.cap);
     if (cloth.seams.empty()) break;
+    strengthen(contact, out.cap);  // a seam must not be drawn through a limb
     RelaxOptions o;
     o.residual = 0;
     o.max_iterations = stage_iterations;
@@ -62,8 +64,8 @@ Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, cons
     out.iterations += r.iterations;
     out.finite = out.finite && r.finite;
     if (r.stopped || !r.finite) break;
-    out.k *= 1.6;
-    out.cap *= 1.6;
+    out.k *= growth;
+    out.cap *= growth;
   }
   cloth.gravity = gravity;
   cloth.seams.clear();

@@ -16,7 +16,7 @@ namespace {
 
 using namespace sewing;
 
-constexpr double gap_bar = 0.003;          // [m] partners must be at least this close before they are welded
+constexpr double gap_bar = 0.002;          // [m] partners must be at least this close before they are welded
 constexpr double strain_bar = 0.35;        // [-] beyond, the garment is another garment
 constexpr double penetration_bar = 0.002;  // [m]
 

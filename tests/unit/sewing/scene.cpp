@@ -183,7 +183,7 @@ Outline vest() {
 }
 
 Outline long_sleeve() {
-  const Vec2 hem(0.25, 0.85), armpit(0.225, 1.20), low(0.465, 0.985), high(0.54, 1.05), shoulder(0.195, 1.45),
+  const Vec2 hem(0.25, 0.85), armpit(0.225, 1.20), low(0.457, 0.980), high(0.553, 1.066), shoulder(0.195, 1.45),
       neck(0.085, 1.485);
   auto m = [](const Vec2& p) { return Vec2(-p.x(), p.y()); };
   Outline o;
