@@ -15,13 +15,15 @@ namespace {
 using Vec3d = Eigen::Vector3d;
 using Vec5d = Eigen::Matrix<double, 5, 1>;
 
-constexpr int ground_parts = 8;
+constexpr int ground_parts = 10;
 constexpr int garment_parts = 6;
 constexpr std::size_t max_samples = 6000;
 constexpr int rounds = 5;
-constexpr double unary_clip = 12;   ///< [nat] no single pixel outvotes its neighbourhood
-constexpr double smoothness = 14;   ///< [nat] cost of a boundary link without contrast
-constexpr double place_scale = 30;  ///< picture side in the unit of Lab, for colour-and-place samples
+constexpr double unary_clip = 12;       ///< [nat] no single pixel outvotes its neighbourhood
+constexpr double smoothness = 14;       ///< [nat] cost of a boundary link without contrast
+constexpr double darkest_shade = 0.68;  ///< cube root of the least light that is left in a cast shadow
+constexpr double shade_penalty = 3.0;   ///< [nat] shade is rarer than lit ground
+constexpr double place_scale = 30;      ///< picture side in the unit of Lab, for colour-and-place samples
 
 Vec3d colour_at(const cv::Mat& lab, int y, int x) {
   const cv::Vec3f c = lab.at<cv::Vec3f>(y, x);
@@ -34,6 +36,22 @@ Vec5d sample_at(const cv::Mat& lab, int y, int x) {
   Vec5d v;
   v << c[0], c[1], c[2], x / side * place_scale, y / side * place_scale;
   return v;
+}
+
+/// Keeps a growing share of the pixels from the rim to the depth of a tenth of the garment: what clings to the
+/// outline (shade, a plank, a hanger) shall not become one of the garment's colours.
+cv::Mat mostly_deep(const cv::Mat& mask) {
+  cv::Mat depth, out = mask.clone();
+  cv::distanceTransform(mask, depth, cv::DIST_L2, 3);
+  const double full = 0.1 * std::sqrt(static_cast<double>(cv::countNonZero(mask)));
+  std::size_t k = 0;
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) {
+      if (!mask.at<std::uint8_t>(y, x)) continue;
+      const double keep = std::min(1.0, depth.at<float>(y, x) / full);
+      if (static_cast<double>((k++ * 2654435761u >> 9) % 1000) > 1000 * keep) out.at<std::uint8_t>(y, x) = 0;
+    }
+  return out;
 }
 
 template <class Sample, class Get>
@@ -70,16 +88,23 @@ class Ground {
       Eigen::Matrix3d c = p.covariance.topLeftCorner<3, 3>() - q.slope * p.covariance.bottomLeftCorner<2, 3>();
       q.colour_inverse = c.inverse();
       q.colour_log_norm = -1.5 * std::log(2 * std::numbers::pi) - 0.5 * std::log(std::max(c.determinant(), 1e-12));
+      const Eigen::Matrix3d shade = c + Eigen::Vector3d(1.5, 3, 3).asDiagonal().toDenseMatrix();
+      q.shade_inverse = shade.inverse();
+      q.shade_log_norm = -1.5 * std::log(2 * std::numbers::pi) - 0.5 * std::log(std::max(shade.determinant(), 1e-12));
       parts_.push_back(q);
     }
   }
 
   bool empty() const { return parts_.empty(); }
 
-  double log_density(const Vec5d& v) const {
-    double terms[Mixture<5>::max_parts], places[Mixture<5>::max_parts];
+  /// With `shadows`, a colour may also be this ground in shade: less light scales the linear colour, which in Lab
+  /// scales (L + 16, a, b) by a common factor t, the cube root of the light that is left.
+  double log_density(const Vec5d& v, bool shadows) const {
+    double terms[2 * Mixture<5>::max_parts], places[Mixture<5>::max_parts];
     double best = -1e300, best_place = -1e300;
+    const Vec3d lift(16, 0, 0), colour = v.head<3>() + lift;
     const std::size_t n = std::min<std::size_t>(parts_.size(), Mixture<5>::max_parts);
+    std::size_t used = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const Part& p = parts_[k];
       const Eigen::Vector2d at = v.tail<2>() - p.place_mean;
@@ -87,29 +112,33 @@ class Ground {
       // Half of a part's weight holds everywhere: planks and tiles come back where no sample was taken.
       places[k] = std::log(p.weight) +
                   std::log(0.5 * std::exp(-0.5 * distance + p.place_log_norm) + 0.5 / (place_scale * place_scale));
+      best_place = std::max(best_place, places[k]);
       // The slope is trusted within two standard deviations; beyond, the colour stays what it was there.
       const double reach = distance > 4 ? 2 / std::sqrt(distance) : 1;
-      const Vec3d d = v.head<3>() - p.colour_mean - reach * (p.slope * at);
-      terms[k] = places[k] + p.colour_log_norm - 0.5 * d.dot(p.colour_inverse * d);
-      best = std::max(best, terms[k]);
-      best_place = std::max(best_place, places[k]);
+      const Vec3d lit = p.colour_mean + reach * (p.slope * at) + lift;
+      const Vec3d d = colour - lit;
+      terms[used++] = places[k] + p.colour_log_norm - 0.5 * d.dot(p.colour_inverse * d);
+      if (!shadows) continue;
+      const Vec3d weighted = p.shade_inverse * lit;
+      const double t = std::clamp(weighted.dot(colour) / weighted.dot(lit), darkest_shade, 0.97);
+      const Vec3d e = colour - t * lit;
+      terms[used++] = places[k] + p.shade_log_norm - shade_penalty - 0.5 * e.dot(p.shade_inverse * e);
     }
+    for (std::size_t k = 0; k < used; ++k) best = std::max(best, terms[k]);
     double sum = 0, place_sum = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      sum += std::exp(terms[k] - best);
-      place_sum += std::exp(places[k] - best_place);
-    }
+    for (std::size_t k = 0; k < used; ++k) sum += std::exp(terms[k] - best);
+    for (std::size_t k = 0; k < n; ++k) place_sum += std::exp(places[k] - best_place);
     return best + std::log(sum) - best_place - std::log(place_sum);
   }
 
  private:
   struct Part {
-    double weight = 0, place_log_norm = 0, colour_log_norm = 0;
+    double weight = 0, place_log_norm = 0, colour_log_norm = 0, shade_log_norm = 0;
     Eigen::Vector2d place_mean;
     Eigen::Matrix2d place_inverse;
     Eigen::Matrix<double, 3, 2> slope;
     Vec3d colour_mean;
-    Eigen::Matrix3d colour_inverse;
+    Eigen::Matrix3d colour_inverse, shade_inverse;
   };
   Mixture<5> joint_;
   std::vector<Part> parts_;
@@ -201,13 +230,13 @@ cv::Mat cut_by_colour(const cv::Mat& rgb) {
   ground.fit(lab, ground_mask);
   cv::Mat mask = cv::Mat::zeros(lab.size(), CV_8U);
   if (ground.empty()) return mask;
-  const auto score_ground = [&] {
+  const auto score_ground = [&](bool shadows) {
     for (int y = 0; y < lab.rows; ++y)
       for (int x = 0; x < lab.cols; ++x)
-        score.at<float>(y, x) = static_cast<float>(-ground.log_density(sample_at(lab, y, x)));
+        score.at<float>(y, x) = static_cast<float>(-ground.log_density(sample_at(lab, y, x), shadows));
   };
   // First cut: how unlike the ground alone. The border itself says what "like" means.
-  score_ground();
+  score_ground(false);
   const float usual = percentile(score, ground_mask, 0.5), limit = percentile(score, ground_mask, 0.95);
   for (int y = 0; y < lab.rows; ++y)
     for (int x = 0; x < lab.cols; ++x) {
@@ -220,14 +249,14 @@ cv::Mat cut_by_colour(const cv::Mat& rgb) {
     const cv::Mat body = main_piece(mask);
     if (cv::countNonZero(body) < 50) return cv::Mat::zeros(lab.size(), CV_8U);
     Mixture<3> garment;
-    garment.fit(collect<Vec3d>(body, [&](int y, int x) { return colour_at(lab, y, x); }), garment_parts,
+    garment.fit(collect<Vec3d>(mostly_deep(body), [&](int y, int x) { return colour_at(lab, y, x); }), garment_parts,
                 Vec3d(1.0, 0.6, 0.6), 6);
     cv::Mat rest;
     cv::dilate(body, rest, cv::Mat(), {-1, -1}, 2);
     rest = ~rest;
     if (cv::countNonZero(rest) < 50) return mask;
     ground.fit(lab, rest);
-    score_ground();
+    score_ground(true);
     for (int y = 0; y < lab.rows; ++y)
       for (int x = 0; x < lab.cols; ++x) {
         const double g = garment.log_density(colour_at(lab, y, x));

@@ -29,6 +29,14 @@ int loose_radius(const cv::Mat& mask) {
   return std::max(1, static_cast<int>(std::lround(0.012 * std::sqrt(static_cast<double>(cv::countNonZero(mask))))));
 }
 
+/// An alpha channel says where the garment is only when it takes away a real part of the picture; drawing programs
+/// leave a few soft pixels in a corner of pictures that are opaque to every viewer.
+bool has_cutout(const Image& alpha) {
+  if (alpha.empty()) return false;
+  const cv::Mat a = view(alpha);
+  return cv::countNonZero(a < 128) >= 0.02 * static_cast<double>(a.total());
+}
+
 /// The cut at working size, brought back to the photo's own size.
 cv::Mat colour_mask(const cv::Mat& rgb, int working_side) {
   const int side = std::max(rgb.cols, rgb.rows);
@@ -54,7 +62,7 @@ Result<Silhouette> find(const Photo& photo, const SilhouetteOptions& options) {
     out.method = "mask";
     out.labels = photo.mask;
     mask = view(photo.mask) > 0;
-  } else if (!photo.alpha.empty()) {
+  } else if (has_cutout(photo.alpha)) {
     out.method = "alpha";
     mask = view(photo.alpha) > 127;
     double second = 0;
