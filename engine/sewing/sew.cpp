@@ -37,12 +37,11 @@ std::vector<double> gaps(const Pattern& pattern, const Positions& positions) {
   return out;
 }
 
-Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, const Nodes& nodes, double sheet_k,
-                    double edge_length, double meet, double step_limit) {
+Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, const Nodes& nodes,
+                    const std::vector<char>& weld, double sheet_k, double edge_length, double meet) {
   Closing out;
   const double gravity = cloth.gravity;
   cloth.gravity = 0;
-  const std::vector<char> none(pattern.pairs.size(), 0);
   auto widest = [&] {
     double most = 0;
     for (const SeamSpring& s : cloth.seams) most = std::max(most, (cloth.at(s.a) - cloth.at(s.b)).norm());
@@ -51,13 +50,13 @@ Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, cons
   out.k = sheet_k;
   out.cap = first_strain * sheet_k * edge_length;
   for (int stage = 0; stage < stages; ++stage) {
-    cloth.seams = springs_for(pattern, nodes, none, out.k, out.cap);
+    cloth.seams = springs_for(pattern, nodes, weld, out.k, out.cap);
     if (cloth.seams.empty()) break;
     strengthen(contact, out.cap);  // a seam must not be drawn through a limb
     RelaxOptions o;
     o.residual = 0;
     o.max_iterations = stage_iterations;
-    o.step_limit = step_limit;
+    o.step_limit = std::min(0.02, edge_length);
     o.check_every = 10;
     o.stop = [&](int, double) { return widest() < meet; };
     const RelaxOutcome r = relax(cloth, &contact, o);
@@ -70,12 +69,12 @@ Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, cons
   cloth.gravity = gravity;
   cloth.seams.clear();
   const std::vector<double> gap = gaps(pattern, scatter(cloth, nodes));
-  for (double g : gap) {
-    out.met.push_back(g < meet);
-    if (g < meet) {
-      out.gap_met = std::max(out.gap_met, g);
+  for (std::size_t s = 0; s < gap.size(); ++s) {
+    out.met.push_back(weld[s] || gap[s] < meet);
+    if (out.met.back()) {
+      out.gap_met = std::max(out.gap_met, gap[s]);
     } else {
-      out.gap_open = std::max(out.gap_open, g);
+      out.gap_open = std::max(out.gap_open, gap[s]);
       ++out.open;
     }
   }

@@ -8,7 +8,7 @@
 namespace vitrine::sewing {
 
 struct Closing {
-  std::vector<char> met;  ///< per pair: 1 when the partners met
+  std::vector<char> met;  ///< per pair: 1 when the partners met, now or before
   double gap_met = 0;     ///< [m] largest distance of partners that met, just before welding
   double gap_open = 0;    ///< [m] largest distance of partners that did not
   int open = 0;           ///< pairs that did not meet
@@ -17,10 +17,10 @@ struct Closing {
   double k = 0, cap = 0;  ///< the seam springs' last stiffness [N/m] and force limit [N]
 };
 
-/// Draws the partners of all pairs together (paper III.C: the attractive force) with gravity off, until each pair is
-/// closer than `meet` [m]. `cloth` is unsewn; its positions move.
-Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, const Nodes& nodes, double sheet_k,
-                    double edge_length, double meet, double step_limit);
+/// Draws the partners of all pairs that are not welded together (paper III.C: the attractive force) with gravity off,
+/// until each pair is closer than `meet` [m]. Moves the cloth.
+Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, const Nodes& nodes,
+                    const std::vector<char>& weld, double sheet_k, double edge_length, double meet);
 
 /// Seam springs for the pairs that are not welded.
 std::vector<SeamSpring> springs_for(const Pattern& pattern, const Nodes& nodes, const std::vector<char>& weld, double k,

@@ -70,11 +70,11 @@ class Tailor {
 
   Result<Drape> run(const Positions& placed) {
     x_ = placed;
-    if (!sew()) return broken();
+    weld_.assign(pattern().pairs.size(), 0);
     for (level_ = 0; level_ < static_cast<int>(levels_.size()); ++level_) {
       if (level_ > 0) carry_to_finer();
       if (fallen_) continue;  // keep the falling garment's shape on the finer mesh
-      if (!drape()) return broken();
+      if (!sew() || !drape()) return broken();
     }
     return report();
   }
@@ -87,37 +87,37 @@ class Tailor {
     return make_contact(cloth, body_, o_.offset, dx, 2 * column_ * dx, k_);
   }
 
-  /// Draws the partners together on the coarsest level.
+  /// Draws the partners that are not sewn yet together and sews those that meet. What stays open on a coarse mesh,
+  /// whose straight edges make every tube narrower, gets another chance on the finer ones.
   bool sew() {
-    const Pattern& p = levels_.front();
-    const std::vector<char> none(p.pairs.size(), 0);
+    const Pattern& p = pattern();
+    if (std::find(weld_.begin(), weld_.end(), 0) == weld_.end()) return true;
     int count = 0;
-    const Nodes nodes = number_nodes(p, none, count);
+    const Nodes nodes = number_nodes(p, weld_, count);
     const double dx = mean_edge(p);
     Cloth cloth = build_cloth(p, nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
     push_out(cloth, body_, o_.offset);
     Contact contact = contact_for(cloth, dx);
-    const double meet = std::min(gap_bar, std::max(0.001, 0.1 * dx));
-    closing_ = close_seams(cloth, contact, p, nodes, k_, dx, meet, std::min(0.02, dx));
+    const double widest = gap_met_;
+    closing_ = close_seams(cloth, contact, p, nodes, weld_, k_, dx, std::min(gap_bar, std::max(0.001, 0.1 * dx)));
+    gap_met_ = std::max(widest, closing_.gap_met);
+    sewing_iterations_ = closing_.iterations;
     x_ = scatter(cloth, nodes);
     weld_ = closing_.met;
-    for (std::size_t s = 0; s < p.pairs.size(); ++s)
-      if (!weld_[s]) open_seams_.push_back(p.pairs[s].seam);
     return closing_.finite;
   }
 
   void carry_to_finer() {
+    std::vector<int> open;
+    for (std::size_t s = 0; s < weld_.size(); ++s)
+      if (!weld_[s]) open.push_back(levels_[level_ - 1].pairs[s].seam);
     const Pattern& coarse = levels_[level_ - 1];
     for (std::size_t p = 0; p < 2; ++p) x_[p] = prolong(coarse.meshes[p], x_[p], pattern().meshes[p]);
-    const std::vector<double> gap = gaps(pattern(), x_);
-    const double near = 0.5 * mean_edge(pattern());
+    // A seam that has closed everywhere is sewn from the start: its partners differ only by the roundness of the
+    // outlines between coarse nodes.
     weld_.clear();
-    for (std::size_t s = 0; s < gap.size(); ++s) {
-      // On a seam that has closed everywhere partners may only differ by the outlines' roundness between coarse nodes.
-      const int seam = pattern().pairs[s].seam;
-      const bool closed = std::find(open_seams_.begin(), open_seams_.end(), seam) == open_seams_.end();
-      weld_.push_back(closed || gap[s] < near);
-    }
+    for (const NodePair& q : pattern().pairs)
+      weld_.push_back(std::find(open.begin(), open.end(), q.seam) == open.end());
   }
 
   bool drape() {
@@ -148,7 +148,8 @@ class Tailor {
 
     LevelFigures f;
     f.nodes = cloth.size;
-    f.iterations = done.iterations + (level_ == 0 ? closing_.iterations : 0);
+    f.iterations = done.iterations + sewing_iterations_;
+    sewing_iterations_ = 0;
     f.residual = done.residual;
     if (level_ > 0) {
       double sum = 0, most = 0;
@@ -180,7 +181,7 @@ class Tailor {
     out_.strain_p99 = strain.p99;
     out_.strain_max = strain.most;
     out_.penetration_mm_max = 1000 * measure_penetration(pattern(), x_, body_);
-    out_.seam_gap_mm_max = 1000 * std::max(closing_.gap_met, closing_.gap_open);
+    out_.seam_gap_mm_max = 1000 * std::max(gap_met_, closing_.open > 0 ? closing_.gap_open : 0.0);
     out_.welded = nodes_;
     out_.positions = x_;
     judge();
@@ -255,14 +256,13 @@ class Tailor {
   const DistanceField& body_;
   const SewingOptions& o_;
   SheetStiffness sheet_;
-  double column_ = 0, k_ = 0;
+  double column_ = 0, k_ = 0, gap_met_ = 0;
   Positions x_;
   Nodes nodes_;
   std::vector<char> weld_;
-  std::vector<int> open_seams_;
   Closing closing_;
   Contact contact_;
-  int level_ = 0;
+  int level_ = 0, sewing_iterations_ = 0;
   bool fallen_ = false;
   Drape out_;
 };
