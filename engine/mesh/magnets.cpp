@@ -53,7 +53,7 @@ double ideal_interior_count(double area, std::size_t outline_size, double edge_l
   return std::max(0.0, 0.5 * (triangles - static_cast<double>(outline_size) + 2.0));
 }
 
-std::vector<Vec2> insert_magnets(std::span<const Vec2> outline, const Wall& wall, double edge_length) {
+std::vector<Vec2> insert_magnets(std::span<const Vec2> outline, const Wall& wall, double edge_length, double shift) {
   const double h = edge_length, step = 0.5 * std::numbers::sqrt3 * h;
   const double bottom = wall.low().y() + step, middle = 0.5 * (wall.low().x() + wall.high().x());
   const int rows = std::max(0, static_cast<int>((wall.high().y() - bottom) / step) + 1);
@@ -65,11 +65,11 @@ std::vector<Vec2> insert_magnets(std::span<const Vec2> outline, const Wall& wall
   };
   std::vector<Place> places;
   for (int k = 0; k < rows; ++k) {
-    const double shift = middle + (k % 2 == 0 ? 0.0 : 0.5 * h), y = bottom + k * step;
+    const double from = middle + (k % 2 == 0 ? shift : shift + 0.5) * h, y = bottom + k * step;
     for (std::size_t c = 0; c + 1 < crossings[k].size(); c += 2) {
-      const double last = std::floor((crossings[k][c + 1] - shift) / h);
-      for (double j = std::ceil((crossings[k][c] - shift) / h); j <= last; ++j) {
-        const Vec2 p(shift + j * h, y);
+      const double last = std::floor((crossings[k][c + 1] - from) / h);
+      for (double j = std::ceil((crossings[k][c] - from) / h); j <= last; ++j) {
+        const Vec2 p(from + j * h, y);
         const double clearance = wall.distance(p, 1.2 * h);
         if (clearance >= kClearance * h) places.push_back({p, clearance});
       }

@@ -19,8 +19,8 @@ double polygon_area(std::span<const Vec2> outline);
 double ideal_interior_count(double area, std::size_t outline_size, double edge_length);
 
 /// Interior nodes on a hexagonal lattice that is symmetric about the middle of the box, as many as a uniform mesh
-/// needs: those farthest from the wall.
-std::vector<Vec2> insert_magnets(std::span<const Vec2> outline, const Wall& wall, double edge_length);
+/// needs: those farthest from the wall. `shift` 0 puts a node on the middle line of the first row, 0.5 a gap.
+std::vector<Vec2> insert_magnets(std::span<const Vec2> outline, const Wall& wall, double edge_length, double shift);
 
 /// Lets the nodes from `outline_size` on repel each other until they rest, held in by the wall. Returns the sweeps
 /// used.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "magnets.hpp"
+#include "polish.hpp"
 #include "rules.hpp"
 #include "triangulate.hpp"
 #include "wall.hpp"
@@ -75,6 +76,40 @@ double score(const MeshStats& s) {
   return s.mean_min_angle_deg + 0.2 * s.min_angle_deg - 300 * s.flat_share - 40 * s.edge_cv;
 }
 
+/// The best mesh seen so far; every step is free to try, none can make the result worse.
+class Best {
+ public:
+  bool offer(const PanelMesh& mesh) {
+    const double now = score(measure_mesh(mesh));
+    if (!mesh_.triangles.empty() && now <= score_) return false;
+    mesh_ = mesh;
+    score_ = now;
+    return true;
+  }
+  bool empty() const { return mesh_.triangles.empty(); }
+  const PanelMesh& mesh() const { return mesh_; }
+
+ private:
+  PanelMesh mesh_;
+  double score_ = 0;
+};
+
+/// Lattice nodes, half settled: of the two lattices that are symmetric about the middle (a node on it, or a gap) the
+/// one that goes better with the outline's own nodes.
+PanelMesh start(std::span<const Vec2> outline, const Wall& wall, double h, int sweeps) {
+  Best best;
+  for (double shift : {0.0, 0.5}) {
+    PanelMesh mesh;
+    mesh.nodes.assign(outline.begin(), outline.end());
+    const std::vector<Vec2> magnets = insert_magnets(outline, wall, h, shift);
+    mesh.nodes.insert(mesh.nodes.end(), magnets.begin(), magnets.end());
+    settle(mesh.nodes, outline.size(), wall, h, sweeps);
+    mesh.triangles = triangulate(mesh.nodes, outline.size());
+    if (!mesh.triangles.empty()) best.offer(mesh);
+  }
+  return best.mesh();
+}
+
 }  // namespace
 
 Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options) {
@@ -82,33 +117,28 @@ Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& o
   const double h = options.edge_length;
   const std::size_t n = outline.size();
   const auto max_nodes = static_cast<std::size_t>(options.max_nodes);
+  const int portion = std::max(0, options.max_sweeps) / 4;
   const Wall wall(outline, h);
 
-  PanelMesh mesh;
-  mesh.nodes.assign(outline.begin(), outline.end());
-  const std::vector<Vec2> magnets = insert_magnets(outline, wall, h);
-  mesh.nodes.insert(mesh.nodes.end(), magnets.begin(), magnets.end());
-
-  constexpr int kRounds = 12, kPatience = 3;
-  PanelMesh best;
-  double best_score = 0;
-  int sweeps = options.max_sweeps, worse = 0;
-  for (int round = 0; round < kRounds && worse < kPatience; ++round) {
-    sweeps -= settle(mesh.nodes, n, wall, h, round == 0 ? sweeps / 2 : std::min(sweeps, options.max_sweeps / 4));
+  constexpr int kRounds = 12, kPatience = 3, kPolishes = 4;
+  PanelMesh mesh = start(outline, wall, h, portion);
+  Best best;
+  int worse = 0;
+  for (int round = 0; round < kRounds && worse < kPatience && !mesh.triangles.empty(); ++round) {
+    worse = best.offer(mesh) ? 0 : worse + 1;
+    const int changes = apply_edge_ratio_rules(mesh.nodes, n, mesh.triangles, wall, h, max_nodes);
+    if (changes == 0 && round > 0) break;
+    settle(mesh.nodes, n, wall, h, portion);
     mesh.triangles = triangulate(mesh.nodes, n);
-    if (mesh.triangles.empty()) break;
-    const double now = score(measure_mesh(mesh));
-    if (best.triangles.empty() || now > best_score) {
-      best = mesh;
-      best_score = now;
-      worse = 0;
-    } else {
-      ++worse;
-    }
-    if (apply_edge_ratio_rules(mesh.nodes, n, mesh.triangles, wall, h, max_nodes) == 0) break;
   }
-  if (best.triangles.empty()) return degenerate("its points are too close to its own segments to triangulate");
-  return best;
+  if (best.empty()) return degenerate("its points are too close to its own segments to triangulate");
+
+  mesh = best.mesh();
+  for (int i = 0; i < kPolishes && polish(mesh.nodes, n, mesh.triangles, wall, h) > 0; ++i) {
+    mesh.triangles = triangulate(mesh.nodes, n);
+    if (mesh.triangles.empty() || !best.offer(mesh)) break;
+  }
+  return best.mesh();
 }
 
 }  // namespace vitrine
