@@ -27,6 +27,14 @@ Error refused(const char* code, const std::filesystem::path& file, const std::st
   return {Cause::plugin, code, "plugin file " + file.string() + " " + why, remedy, "plugin"};
 }
 
+/// The dynamic linker's own words, which Boost wraps as "... (dlerror system message: WORDS): Bad file descriptor".
+std::string reason(const std::string& what) {
+  const std::string opening = "dlerror system message: ";
+  const std::size_t begin = what.find(opening), end = what.rfind(')');
+  if (begin == std::string::npos || end == std::string::npos || end < begin + opening.size()) return what;
+  return what.substr(begin + opening.size(), end - begin - opening.size());
+}
+
 }  // namespace
 
 Result<const void*> load_entry(const std::filesystem::path& absolute_file) {
@@ -44,7 +52,7 @@ Result<const void*> load_entry(const std::filesystem::path& absolute_file) {
                      "Build it with vitrine_add_plugin() and define the entry with VITRINE_PLUGIN");
     return entry;
   } catch (const std::exception& e) {
-    return refused("PLUGIN_FILE_LOAD", absolute_file, std::string("cannot be loaded: ") + e.what(),
+    return refused("PLUGIN_FILE_LOAD", absolute_file, "cannot be loaded: " + reason(e.what()),
                    "Rebuild it for this machine with vitrine_add_plugin(), which also finds undefined symbols");
   }
 }

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vitrine/host/adopt.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "mutable_garment.hpp"
+#include "vitrine/check.hpp"
+#include "vitrine/templates/necklines.hpp"
+#include "vitrine/templates/skirt.hpp"
+#include "vitrine/templates/sleeve.hpp"
+
+namespace vitrine {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const PluginIdentity identity{"some.vitrine.so", "org.example.some", "1.2.3", "Example"};
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(Adopt, copies_every_table_of_a_garment) {
+  const auto g = adopt_garment(templates::long_sleeve, identity);
+  ASSERT_TRUE(g) << g.error().message;
+  EXPECT_EQ(g->id, "long_sleeve");
+  EXPECT_EQ(g->plugin, "org.example.some");
+  EXPECT_EQ(g->version, "1.2.3");
+  ASSERT_EQ(g->features.size(), 12u);
+  EXPECT_EQ(g->features[3].name, "cuff_upper_right");
+  EXPECT_EQ(g->features[3].landmark, "wrist_right");
+  EXPECT_EQ(g->features[g->features[3].mirror].name, "cuff_upper_left");
+  EXPECT_EQ(g->features[5].turn, Turn::concave);
+  ASSERT_EQ(g->edges.size(), 12u);
+  EXPECT_EQ(g->neck_edge(), 0);
+  EXPECT_EQ(g->edges[0].from, 0);
+  EXPECT_EQ(g->edges[0].to, 1);
+  EXPECT_EQ(g->seams.size(), 8u);
+  for (const TemplateSeam& seam : g->seams) EXPECT_EQ(seam.edge_a, seam.edge_b);
+  ASSERT_EQ(g->limbs.size(), 2u);
+  EXPECT_THAT(g->limbs[0].chain, testing::ElementsAre("shoulder_left", "elbow_left", "wrist_left"));
+  EXPECT_EQ(g->scale.girth, "bust");
+  EXPECT_EQ(g->features[g->scale.feature_a].name, "armpit_left");
+  EXPECT_THAT(g->anchors, testing::ElementsAre(0, 1));
+  EXPECT_EQ(g->fabrics.front().name, "jersey");
+  ASSERT_EQ(g->poses.size(), templates::long_sleeve.poses.count);
+  EXPECT_EQ(g->poses[0].uv.size(), 12u);
+  EXPECT_EQ(g->poses[0].uv[0].x(), templates::long_sleeve.poses.data[0].points.data[0].u);
+  EXPECT_EQ(g->poses[0].radius[0], templates::long_sleeve.poses.data[0].points.data[0].radius);
+}
+
+TEST(Adopt, pose_points_may_come_in_any_order) {
+  MutableGarment m(templates::skirt);
+  std::swap(m.points[0][0], m.points[0][2]);
+  const auto shuffled = adopt_garment(m.get(), identity);
+  const auto ordered = adopt_garment(templates::skirt, identity);
+  ASSERT_TRUE(shuffled && ordered);
+  EXPECT_EQ(shuffled->poses[0].uv, ordered->poses[0].uv);
+}
+
+struct Break {
+  const char* promise;
+  const char* code;
+  std::function<void(MutableGarment&)> change;
+};
+
+class AdoptRefuses : public testing::TestWithParam<Break> {};
+
+TEST_P(AdoptRefuses, naming_plugin_file_and_rule) {
+  MutableGarment m(templates::long_sleeve);
+  ASSERT_TRUE(adopt_garment(m.get(), identity));
+  GetParam().change(m);
+  // get() has to see the changed rows, but a change to the table itself comes last.
+  const auto g = adopt_garment(m.get(), identity);
+  ASSERT_FALSE(g);
+  EXPECT_EQ(g.error().code, GetParam().code) << g.error().message;
+  EXPECT_EQ(g.error().cause, Cause::plugin);
+  EXPECT_THAT(g.error().message,
+              AllOf(HasSubstr("org.example.some"), HasSubstr("some.vitrine.so"), HasSubstr("rule ")));
+  EXPECT_FALSE(g.error().remedy.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Garment, AdoptRefuses,
+    testing::Values(
+        Break{"id_with_a_space", "PLUGIN_NAME_FORM", [](auto& m) { m.table.id = "my vest"; }},
+        Break{"id_with_a_capital", "PLUGIN_NAME_FORM", [](auto& m) { m.table.id = "Vest"; }},
+        Break{"no_title", "PLUGIN_TEXT_PRESENT", [](auto& m) { m.table.title = nullptr; }},
+        Break{"broken_utf8", "PLUGIN_TEXT_UTF8", [](auto& m) { m.table.title = "V\xC3("; }},
+        Break{"overlong_utf8", "PLUGIN_TEXT_UTF8", [](auto& m) { m.table.title = "\xC0\xAF"; }},
+        Break{"surrogate_utf8", "PLUGIN_TEXT_UTF8", [](auto& m) { m.table.title = "\xED\xA0\x80"; }},
+        Break{"cut_off_utf8", "PLUGIN_TEXT_UTF8", [](auto& m) { m.table.title = "vest\xE2\x82"; }},
+        Break{"terminal_escape", "PLUGIN_TEXT_UTF8", [](auto& m) { m.table.title = "\x1b[31mvest"; }},
+        Break{"endless_title", "PLUGIN_TEXT_LENGTH",
+              [](auto& m) {
+                static const std::string endless(100000, 'x');
+                m.table.title = endless.c_str();
+              }},
+        Break{"too_few_features", "PLUGIN_SPAN_COUNT", [](auto& m) { m.features.resize(2); }},
+        Break{"no_poses", "PLUGIN_SPAN_COUNT", [](auto& m) { m.poses.clear(); }},
+        Break{"no_fabrics", "PLUGIN_SPAN_COUNT", [](auto& m) { m.fabrics.clear(); }},
+        Break{"two_scale_rules", "PLUGIN_SPAN_COUNT", [](auto& m) { m.scale.push_back(m.scale[0]); }},
+        Break{"repeated_feature", "PLUGIN_NAME_UNIQUE", [](auto& m) { m.features[1].name = m.features[0].name; }},
+        Break{"repeated_edge", "PLUGIN_NAME_UNIQUE", [](auto& m) { m.edges[1].name = m.edges[0].name; }},
+        Break{"repeated_pose", "PLUGIN_NAME_UNIQUE", [](auto& m) { m.poses[1].name = m.poses[0].name; }},
+        Break{"repeated_fabric", "PLUGIN_NAME_UNIQUE", [](auto& m) { m.fabrics[1].name = m.fabrics[0].name; }},
+        Break{"repeated_anchor", "PLUGIN_NAME_UNIQUE", [](auto& m) { m.anchors[1].name = m.anchors[0].name; }},
+        Break{"unknown_landmark", "PLUGIN_NAME_KNOWN", [](auto& m) { m.features[0].landmark = "tail"; }},
+        Break{"unknown_mirror", "PLUGIN_NAME_KNOWN", [](auto& m) { m.features[0].mirror = "nobody"; }},
+        Break{"one_sided_mirror", "PLUGIN_MIRROR_INVOLUTION", [](auto& m) { m.features[0].mirror = "hem_left"; }},
+        Break{"impossible_turn", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.features[0].turn = 2; }},
+        Break{"reserved_field_used", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.features[0].reserved = 1; }},
+        Break{"edge_to_nowhere", "PLUGIN_NAME_KNOWN", [](auto& m) { m.edges[0].to = "nowhere"; }},
+        Break{"open_outline", "PLUGIN_OUTLINE_CLOSED", [](auto& m) { m.edges[3].to = "hem_left"; }},
+        Break{"missing_edge", "PLUGIN_OUTLINE_CLOSED", [](auto& m) { m.edges.pop_back(); }},
+        Break{"edges_against_the_features", "PLUGIN_OUTLINE_ORDER",
+              [](auto& m) { std::swap(m.features[3], m.features[8]); }},
+        Break{"two_necks", "PLUGIN_OUTLINE_NECK", [](auto& m) { m.edges[6].kind = VITRINE_EDGE_NECK; }},
+        Break{"unknown_kind", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.edges[6].kind = 3; }},
+        Break{"pose_without_a_feature", "PLUGIN_POSE_COMPLETE", [](auto& m) { m.points[0].pop_back(); }},
+        Break{"pose_with_a_feature_twice", "PLUGIN_POSE_COMPLETE",
+              [](auto& m) { m.points[0][1].feature = m.points[0][0].feature; }},
+        Break{"point_outside_the_box", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.points[0][0].u = 1.01; }},
+        Break{"point_that_is_no_number", "PLUGIN_NUMBER_FINITE", [](auto& m) { m.points[1][0].v = nan; }},
+        Break{"radius_of_zero", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.points[0][0].radius = 0; }},
+        Break{"pose_inside_out", "PLUGIN_POSE_CLOCKWISE",
+              [](auto& m) {
+                for (auto& point : m.points[0]) point.u = 1 - point.u;
+              }},
+        Break{"seam_of_an_unknown_edge", "PLUGIN_NAME_KNOWN", [](auto& m) { m.seams[0].edge_b = "pocket"; }},
+        Break{"seam_of_an_open_edge", "PLUGIN_SEAM_KIND", [](auto& m) { m.seams[0].edge_b = "hem"; }},
+        Break{"edge_sewn_twice", "PLUGIN_SEAM_PAIRS", [](auto& m) { m.seams.push_back(m.seams[0]); }},
+        Break{"edge_never_sewn", "PLUGIN_SEAM_PAIRS", [](auto& m) { m.seams.pop_back(); }},
+        Break{"side_that_does_not_exist", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.seams[0].side_b = 2; }},
+        Break{"limb_of_one_corner", "PLUGIN_LIMB_CORNERS", [](auto& m) { m.limbs[0].root_b = m.limbs[0].root_a; }},
+        Break{"limb_of_unknown_landmarks", "PLUGIN_NAME_KNOWN",
+              [](auto& m) {
+                static constexpr std::array<vitrine_name, 2> chain = {{{"shoulder_left"}, {"wing_left"}}};
+                m.limbs[0].chain = sdk::span(chain);
+              }},
+        Break{"scale_by_an_unknown_girth", "PLUGIN_NAME_KNOWN", [](auto& m) { m.scale[0].girth = "height"; }},
+        Break{"scale_of_one_feature", "PLUGIN_SCALE_MEASURABLE",
+              [](auto& m) { m.scale[0].feature_b = m.scale[0].feature_a; }},
+        Break{"length_upside_down", "PLUGIN_SCALE_MEASURABLE",
+              [](auto& m) { std::swap(m.scale[0].top, m.scale[0].bottom); }},
+        Break{"endless_ease", "PLUGIN_NUMBER_FINITE", [](auto& m) { m.scale[0].ease = infinity; }},
+        Break{"anchor_on_nothing", "PLUGIN_ANCHOR_LANDMARK", [](auto& m) { m.features[0].landmark = nullptr; }},
+        Break{"negative_stiffness", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.fabrics[0].stretch = -1; }},
+        Break{"weightless_fabric", "PLUGIN_NUMBER_RANGE", [](auto& m) { m.fabrics[0].mass = 0; }},
+        Break{"friction_that_is_no_number", "PLUGIN_NUMBER_FINITE", [](auto& m) { m.fabrics[2].friction = nan; }}),
+    [](const auto& info) { return std::string(info.param.promise); });
+
+TEST(Adopt, refuses_a_span_without_data_or_with_a_short_stride) {
+  vitrine_garment g = templates::vest;
+  g.seams.data = nullptr;
+  EXPECT_EQ(adopt_garment(g, identity).error().code, "PLUGIN_SPAN_DATA");
+  g = templates::vest;
+  g.seams.stride = 24;
+  EXPECT_EQ(adopt_garment(g, identity).error().code, "PLUGIN_SPAN_STRIDE");
+  g = templates::vest;
+  g.seams.stride = 33;
+  EXPECT_EQ(adopt_garment(g, identity).error().code, "PLUGIN_SPAN_STRIDE");
+  g = templates::vest;
+  g.features.count = 4000000000u;
+  EXPECT_EQ(adopt_garment(g, identity).error().code, "PLUGIN_SPAN_COUNT");
+}
+
+// What a plugin of a later minor version looks like: its rows have grown, the fields that this host knows have not
+// moved.
+TEST(Adopt, reads_rows_that_have_grown) {
+  struct Grown {
+    vitrine_fabric fabric;
+    double elasticity;
+  };
+  static const Grown grown[] = {{templates::jersey, 1}, {templates::denim, 2}};
+  vitrine_garment g = templates::vest;
+  g.fabrics = {&grown[0].fabric, 2, sizeof(Grown)};
+  const auto adopted = adopt_garment(g, identity);
+  ASSERT_TRUE(adopted) << adopted.error().message;
+  EXPECT_EQ(adopted->fabrics[1].name, "denim");
+  EXPECT_DOUBLE_EQ(adopted->fabrics[1].stretch, templates::denim.stretch);
+}
+
+TEST(AdoptNeckline, copies_and_checks) {
+  const auto u = adopt_neckline(templates::neck_u, identity);
+  ASSERT_TRUE(u) << u.error().message;
+  EXPECT_EQ(u->profile.size(), templates::u_profile.size());
+  EXPECT_DOUBLE_EQ(u->ratio_max, templates::neck_u.ratio_max);
+
+  const auto code = [](auto change) {
+    std::vector<vitrine_profile_point> points(templates::square_profile.begin(), templates::square_profile.end());
+    vitrine_neckline n = templates::neck_square;
+    n.profile.data = points.data();
+    change(n, points);
+    const auto result = adopt_neckline(n, identity);
+    return result ? std::string("adopted") : result.error().code;
+  };
+  EXPECT_EQ(code([](auto&, auto&) {}), "adopted");
+  EXPECT_EQ(code([](auto& n, auto&) { n.profile.count = 2; }), "PLUGIN_SPAN_COUNT");
+  EXPECT_EQ(code([](auto&, auto& p) { p[2].s = p[1].s; }), "PLUGIN_NECKLINE_PROFILE");
+  EXPECT_EQ(code([](auto&, auto& p) { p[0].depth = 0.1; }), "PLUGIN_NECKLINE_PROFILE");
+  EXPECT_EQ(code([](auto&, auto& p) { p[1].depth = p[2].depth = 0.9; }), "PLUGIN_NECKLINE_PROFILE");
+  EXPECT_EQ(code([](auto&, auto& p) { p[1].depth = nan; }), "PLUGIN_NUMBER_FINITE");
+  EXPECT_EQ(code([](auto& n, auto&) { n.ratio_max = n.ratio_min; }), "PLUGIN_NUMBER_RANGE");
+  EXPECT_EQ(code([](auto& n, auto&) { n.ratio_max = infinity; }), "PLUGIN_NUMBER_FINITE");
+  EXPECT_EQ(code([](auto& n, auto&) { n.default_depth = 0; }), "PLUGIN_NUMBER_RANGE");
+}
+
+constexpr std::array entry_garments = {templates::vest};
+constexpr std::array entry_necklines = {templates::neck_v};
+vitrine_plugin sound_entry() {
+  return {.magic = VITRINE_MAGIC,
+          .abi_major = VITRINE_ABI_MAJOR,
+          .abi_minor = VITRINE_ABI_TARGET_MINOR,
+          .size = sizeof(vitrine_plugin),
+          .vendor = "Example",
+          .id = "org.example.some",
+          .version = "1.2.3",
+          .garments = sdk::span(entry_garments),
+          .necklines = sdk::span(entry_necklines),
+          .extension = nullptr};
+}
+
+TEST(AdoptEntry, takes_a_sound_plugin) {
+  const vitrine_plugin entry = sound_entry();
+  const auto plugin = adopt(&entry, "some.vitrine.so");
+  ASSERT_TRUE(plugin) << plugin.error().message;
+  EXPECT_EQ(plugin->identity.id, "org.example.some");
+  EXPECT_EQ(plugin->identity.vendor, "Example");
+  EXPECT_EQ(plugin->garments.size(), 1u);
+  EXPECT_EQ(plugin->necklines.size(), 1u);
+}
+
+TEST(AdoptEntry, other_major_names_both_versions_and_both_remedies) {
+  vitrine_plugin entry = sound_entry();
+  for (const std::uint32_t major : {0u, 2u}) {
+    entry.abi_major = major;
+    const auto plugin = adopt(&entry, "some.vitrine.so");
+    ASSERT_FALSE(plugin);
+    EXPECT_EQ(plugin.error().code, "PLUGIN_ENTRY_ABI_MAJOR");
+    EXPECT_THAT(plugin.error().message, AllOf(HasSubstr("ABI " + std::to_string(major) + ".0"), HasSubstr("ABI 1.0")));
+    EXPECT_THAT(plugin.error().remedy, AllOf(testing::ContainsRegex("[Rr]ebuild the plugin"), HasSubstr("vitrine")));
+  }
+}
+
+TEST(AdoptEntry, newer_minor_names_both_versions_and_both_remedies) {
+  vitrine_plugin entry = sound_entry();
+  entry.abi_minor = 7;
+  const auto plugin = adopt(&entry, "some.vitrine.so");
+  ASSERT_FALSE(plugin);
+  EXPECT_EQ(plugin.error().code, "PLUGIN_ENTRY_ABI_MINOR");
+  EXPECT_THAT(plugin.error().message, AllOf(HasSubstr("ABI 1.7"), HasSubstr("ABI 1.0")));
+  EXPECT_THAT(plugin.error().remedy, AllOf(HasSubstr("Update vitrine"), HasSubstr("rebuild the plugin")));
+}
+
+// Whatever the rest holds: nothing behind the four frozen fields may be read before they are right.
+TEST(AdoptEntry, looks_at_the_version_before_anything_else) {
+  struct {
+    std::uint32_t magic = VITRINE_MAGIC, major = 9, minor = 9, size = 16;
+  } head;
+  EXPECT_EQ(adopt(&head, "x").error().code, "PLUGIN_ENTRY_ABI_MAJOR");
+  head.magic = 0x12345678;
+  EXPECT_EQ(adopt(&head, "x").error().code, "PLUGIN_ENTRY_MAGIC");
+  head.magic = VITRINE_MAGIC, head.major = VITRINE_ABI_MAJOR, head.minor = VITRINE_ABI_MINOR;
+  EXPECT_EQ(adopt(&head, "x").error().code, "PLUGIN_ENTRY_SIZE");
+  EXPECT_EQ(adopt(nullptr, "x").error().code, "PLUGIN_ENTRY_MAGIC");
+}
+
+TEST(AdoptEntry, reads_a_descriptor_that_has_grown) {
+  struct {
+    vitrine_plugin entry = sound_entry();
+    std::uint64_t more = 0xdeadbeef;
+  } grown;
+  grown.entry.size = sizeof grown;
+  EXPECT_TRUE(adopt(&grown, "x"));
+}
+
+TEST(AdoptEntry, refuses_bad_identities) {
+  const auto code = [](const char* id, const char* version) {
+    vitrine_plugin entry = sound_entry();
+    entry.id = id, entry.version = version;
+    const auto plugin = adopt(&entry, "x");
+    return plugin ? std::string("adopted") : plugin.error().code;
+  };
+  EXPECT_EQ(code("org.example.a-b_c2", "0.0.1-rc.1+build.5"), "adopted");
+  for (const char* id : {"poncho", "org..poncho", "Org.example", ".org.example", "org.example.", "org/example.x"})
+    EXPECT_EQ(code(id, "1.0.0"), "PLUGIN_ENTRY_ID") << id;
+  for (const char* version : {"1", "1.0", "1.0.0.0", "v1.0.0", "01.0.0", "1.0.0-", "1.0.0 "})
+    EXPECT_EQ(code("org.example", version), "PLUGIN_ENTRY_ID") << version;
+  EXPECT_EQ(code(nullptr, "1.0.0"), "PLUGIN_TEXT_PRESENT");
+}
+
+TEST(AdoptEntry, refuses_an_empty_plugin_and_repeated_ids) {
+  vitrine_plugin entry = sound_entry();
+  entry.garments = {}, entry.necklines = {};
+  EXPECT_EQ(adopt(&entry, "x").error().code, "PLUGIN_ENTRY_CONTENT");
+  const std::array twice = {templates::vest, templates::vest};
+  entry.garments = sdk::span(twice);
+  EXPECT_EQ(adopt(&entry, "x").error().code, "PLUGIN_NAME_UNIQUE");
+}
+
+// Property: no change of the bytes of a table's numbers and counts brings adoption down or lets a number out of range
+// in.
+TEST(AdoptProperty, random_numbers_are_refused_or_stay_in_range) {
+  std::mt19937 random(20240917);
+  const double values[] = {0, -0.0, 1, -1, 0.5, 1e-320, 1e300, -1e300, nan, infinity, -infinity, 2, 0.999999};
+  int adopted = 0;
+  for (int i = 0; i < 3000; ++i) {
+    MutableGarment m(templates::long_sleeve);
+    const double value = values[random() % std::size(values)];
+    auto& point = m.points[random() % m.points.size()][random() % 12];
+    auto& fabric = m.fabrics[random() % m.fabrics.size()];
+    double* places[] = {&point.u,     &point.v,     &point.radius,    &fabric.stretch, &fabric.shear,
+                        &fabric.bend, &fabric.mass, &fabric.friction, &m.scale[0].ease};
+    *places[random() % std::size(places)] = value;
+    const auto g = adopt_garment(m.get(), identity);
+    if (!g) continue;
+    ++adopted;
+    for (const TemplatePose& pose : g->poses)
+      for (std::size_t f = 0; f < pose.uv.size(); ++f) {
+        EXPECT_TRUE((pose.uv[f].array() >= 0).all() && (pose.uv[f].array() <= 1).all());
+        EXPECT_TRUE(pose.radius[f] > 0 && pose.radius[f] <= 0.5);
+      }
+    for (const Fabric& f : g->fabrics) EXPECT_TRUE(f.stretch >= 1 && f.mass > 0 && f.friction >= 0 && f.friction <= 5);
+  }
+  EXPECT_GT(adopted, 100);
+}
+
+// Every rule that an error can name is listed, and described in a sentence.
+TEST(AdoptionRules, are_unique_and_described) {
+  std::set<std::string_view> names;
+  for (const AdoptionRule& rule : adoption_rules()) {
+    EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
+    EXPECT_TRUE(rule.description.ends_with('.')) << rule.name;
+  }
+  for (const char* rule : {"entry.magic", "outline.closed", "seam.pairs", "span.data", "text.utf8", "number.finite"})
+    EXPECT_TRUE(names.contains(rule)) << rule;
+}
+
+// The author's compiler comes to the same verdict as the host.
+namespace compile_time {
+
+constexpr vitrine_garment with_edges(vitrine_garment g, vitrine_edge_span edges) {
+  g.edges = edges;
+  return g;
+}
+constexpr vitrine_garment with_seams(vitrine_garment g, vitrine_seam_span seams) {
+  g.seams = seams;
+  return g;
+}
+constexpr auto open_edges = [] {
+  auto edges = templates::skirt_edges;
+  edges[3].to = "hem_right";
+  return edges;
+}();
+constexpr auto stray_seams = [] {
+  auto seams = templates::skirt_seams;
+  seams[1].edge_b = "pocket";
+  return seams;
+}();
+constexpr auto hem_seams = [] {
+  auto seams = templates::skirt_seams;
+  seams[1].edge_b = "hem";
+  return seams;
+}();
+constexpr auto lonely_mirror = [] {
+  auto features = templates::skirt_features;
+  features[0].mirror = "hem_right";
+  return features;
+}();
+constexpr vitrine_garment with_features(vitrine_garment g, vitrine_feature_span features) {
+  g.features = features;
+  return g;
+}
+constexpr auto dented = [] {
+  auto profile = templates::v_profile;
+  profile[1].depth = 0.5;
+  return profile;
+}();
+constexpr vitrine_neckline with_profile(vitrine_neckline n, vitrine_profile_point_span profile) {
+  n.profile = profile;
+  return n;
+}
+
+static_assert(sdk::check(templates::vest) && sdk::check(templates::long_sleeve) && sdk::check(templates::skirt));
+static_assert(sdk::check(templates::neck_u) && sdk::check(templates::neck_v) && sdk::check(templates::neck_square));
+static_assert(!sdk::outline_closed(with_edges(templates::skirt, sdk::span(open_edges))));
+static_assert(!sdk::seams_join_seam_edges(with_seams(templates::skirt, sdk::span(stray_seams))));
+static_assert(!sdk::seams_join_seam_edges(with_seams(templates::skirt, sdk::span(hem_seams))));
+static_assert(!sdk::seams_pair(with_seams(templates::skirt, sdk::span(stray_seams))));
+static_assert(!sdk::mirrors_are_involutions(with_features(templates::skirt, sdk::span(lonely_mirror))));
+static_assert(!sdk::check(with_profile(templates::neck_v, sdk::span(dented))));
+
+}  // namespace compile_time
+
+}  // namespace
+}  // namespace vitrine
