@@ -15,6 +15,7 @@ namespace {
 constexpr double kRange = 1.5;
 constexpr double kMobility = 0.1;      ///< [-] step per unit force, in edge lengths; stable below 0.16
 constexpr double kLargestStep = 0.15;  ///< [-] in edge lengths; less than the clearance, so no node jumps the wall
+constexpr double kLookout = 2;         ///< [-] how far nodes look for the wall, in edge lengths
 constexpr double kRest = 5e-4;         ///< [-] largest step, in edge lengths, that counts as rest
 
 /// Eq. (1) with unit masses, F = G (1/r^2 - 1/R^2) for r < R: the paper's law let down to zero at its range.
@@ -100,6 +101,8 @@ int settle(std::vector<Vec2>& nodes, std::size_t outline_size, const Wall& wall,
   fixed.fill(wall.magnets());
   std::vector<Vec2> inner(nodes.begin() + static_cast<std::ptrdiff_t>(outline_size), nodes.end());
   std::vector<Vec2> push(inner.size());
+  // How far each node is from the wall at least: the last measurement less what it moved since.
+  std::vector<double> room(inner.size(), 0.0);
   int sweep = 0;
   for (; sweep < max_sweeps; ++sweep) {
     moving.fill(inner);
@@ -118,12 +121,18 @@ int settle(std::vector<Vec2>& nodes, std::size_t outline_size, const Wall& wall,
     for (std::size_t i = 0; i < inner.size(); ++i) {
       Vec2 move = kMobility * push[i];
       if (move.norm() > kLargestStep) move *= kLargestStep / move.norm();
-      Vec2 away;
       Vec2 target = inner[i] + h * move;
-      const double clearance = wall.distance(target, h, &away);
-      // Pressed against the wall: slide along it; stay where even that is too near.
-      if (clearance < kClearance * h) target += (kClearance * h - clearance) * away;
-      if (wall.distance(target, h) < (kClearance - 1e-6) * h) continue;
+      room[i] -= h * move.norm();
+      if (room[i] < kClearance * h) {
+        Vec2 away;
+        room[i] = wall.distance(target, kLookout * h, &away);
+        if (room[i] < kClearance * h) {
+          // Pressed against the wall: slide along it; stay where even that is too near.
+          target += (kClearance * h - room[i]) * away;
+          room[i] = 0;
+          if (wall.distance(target, h) < (kClearance - 1e-6) * h) continue;
+        }
+      }
       largest = std::max(largest, (target - inner[i]).norm() / h);
       inner[i] = target;
     }
