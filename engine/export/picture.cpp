@@ -20,7 +20,8 @@ Result<Bytes> encode(const Image& image, const char* extension, const std::vecto
   try {
     // OpenCV's own order is BGR.
     const cv::Mat view(image.height, image.width, CV_8UC(image.channels), const_cast<std::uint8_t*>(image.data.data()));
-    cv::Mat turned = view;
+    cv::Mat turned;  // of its own: sharing the view's memory would turn the caller's picture as well
+    if (image.channels == 1) turned = view;
     if (image.channels == 3) cv::cvtColor(view, turned, cv::COLOR_RGB2BGR);
     if (image.channels == 4) cv::cvtColor(view, turned, cv::COLOR_RGBA2BGRA);
     Bytes bytes;

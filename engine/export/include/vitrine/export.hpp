@@ -14,9 +14,9 @@ namespace vitrine {
 using Bytes = std::vector<std::uint8_t>;
 
 struct GlbOptions {
-  int jpeg_quality = 88;    ///< [-] 1..100
-  std::string copyright;    ///< asset.copyright; empty = none
-  std::string extras_json;  ///< asset.extras as JSON text; empty = none
+  int jpeg_quality = 88;      ///< [-] 1..100
+  std::string copyright{};    ///< asset.copyright; empty = none
+  std::string extras_json{};  ///< asset.extras as JSON text; empty = none
 };
 
 /// Binary glTF 2.0: one node and one mesh per RenderMesh, metres, +Y up, +Z front, doubleSided, 16-bit indices where

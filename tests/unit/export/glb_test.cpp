@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include "sample.hpp"
+
+// The same switches as the writer: its tinygltf is linked, this file only reads with it.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_FS
+#include <tiny_gltf.h>
+
+namespace vitrine::test {
+namespace {
+
+tinygltf::Model parse(const Bytes& glb) {
+  tinygltf::TinyGLTF reader;
+  // Pictures stay encoded: no decoder is compiled in.
+  reader.SetImageLoader(
+      [](tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* data, int size,
+         void*) {
+        image->image.assign(data, data + size);
+        return true;
+      },
+      nullptr);
+  tinygltf::Model model;
+  std::string error, warning;
+  EXPECT_TRUE(reader.LoadBinaryFromMemory(&model, &error, &warning, glb.data(), static_cast<unsigned>(glb.size())))
+      << error;
+  EXPECT_EQ(error + warning, "");
+  return model;
+}
+
+Bytes encode(const std::vector<RenderMesh>& meshes, const GlbOptions& options = {}) {
+  auto glb = encode_glb(meshes, options);
+  EXPECT_TRUE(glb) << (glb ? "" : glb.error().message);
+  return glb ? *std::move(glb) : Bytes{};
+}
+
+TEST(Glb, reads_back_with_the_names_and_counts_it_was_given) {
+  const RenderMesh garment = textured_sheet(4), body = plain_sheet("mannequin", 3);
+  const tinygltf::Model m = parse(encode({garment, body}, {.copyright = "A shop"}));
+  ASSERT_EQ(m.nodes.size(), 2u);
+  ASSERT_EQ(m.meshes.size(), 2u);
+  EXPECT_EQ(m.asset.version, "2.0");
+  EXPECT_EQ(m.asset.generator, "Vitrine");
+  EXPECT_EQ(m.asset.copyright, "A shop");
+  EXPECT_EQ(m.defaultScene, 0);
+  EXPECT_THAT(m.scenes[0].nodes, testing::ElementsAre(0, 1));
+  EXPECT_FALSE(m.scenes[0].name.empty());
+  EXPECT_TRUE(m.extensionsUsed.empty());
+  EXPECT_EQ(m.buffers.size(), 1u);
+  for (int i = 0; i < 2; ++i) {
+    const RenderMesh& in = i ? body : garment;
+    EXPECT_EQ(m.nodes[i].name, in.name);
+    EXPECT_EQ(m.meshes[i].name, in.name);
+    ASSERT_EQ(m.meshes[i].primitives.size(), 1u);
+    const tinygltf::Primitive& p = m.meshes[i].primitives[0];
+    EXPECT_EQ(m.accessors[p.attributes.at("POSITION")].count, in.positions.size());
+    EXPECT_EQ(m.accessors[p.attributes.at("NORMAL")].count, in.positions.size());
+    EXPECT_EQ(m.accessors[p.indices].count, 3 * in.triangles.size());
+    EXPECT_EQ(p.attributes.count("TEXCOORD_0"), i ? 0u : 1u);
+    EXPECT_TRUE(m.materials[p.material].doubleSided);
+    EXPECT_EQ(m.materials[p.material].pbrMetallicRoughness.metallicFactor, 0.0);
+    EXPECT_GE(m.materials[p.material].pbrMetallicRoughness.roughnessFactor, 0.8);
+  }
+  ASSERT_EQ(m.images.size(), 1u);
+  EXPECT_EQ(m.images[0].mimeType, "image/jpeg");
+  EXPECT_THAT(m.materials[1].pbrMetallicRoughness.baseColorFactor, testing::ElementsAre(0.5, 0.4, 0.3, 1.0));
+}
+
+TEST(Glb, states_the_exact_bounds_of_what_it_stores) {
+  const RenderMesh garment = textured_sheet(7);
+  const tinygltf::Model m = parse(encode({garment}));
+  const tinygltf::Accessor& a = m.accessors[m.meshes[0].primitives[0].attributes.at("POSITION")];
+  const tinygltf::BufferView& view = m.bufferViews[a.bufferView];
+  EXPECT_EQ(view.target, TINYGLTF_TARGET_ARRAY_BUFFER);
+  std::vector<float> stored(a.count * 3);
+  std::memcpy(stored.data(), m.buffers[0].data.data() + view.byteOffset, stored.size() * sizeof(float));
+  for (int c = 0; c < 3; ++c) {
+    double low = 1e9, high = -1e9;
+    for (std::size_t i = 0; i < a.count; ++i) {
+      EXPECT_NEAR(stored[3 * i + c], garment.positions[i][c], 1e-6);
+      low = std::min<double>(low, stored[3 * i + c]);
+      high = std::max<double>(high, stored[3 * i + c]);
+    }
+    EXPECT_EQ(a.minValues[c], low);
+    EXPECT_EQ(a.maxValues[c], high);
+  }
+}
+
+TEST(Glb, uses_16_bit_indices_as_long_as_they_fit) {
+  // 255 x 257 = 65,535 vertices, and one row more.
+  for (const bool large : {false, true}) {
+    const RenderMesh sheet = plain_sheet("sheet", 254, large ? 257 : 256);
+    const tinygltf::Model m = parse(encode({sheet}));
+    const tinygltf::Accessor& a = m.accessors[m.meshes[0].primitives[0].indices];
+    EXPECT_EQ(a.componentType, large ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    EXPECT_EQ(m.bufferViews[a.bufferView].target, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    for (const auto& view : m.bufferViews) EXPECT_EQ(view.byteOffset % 4, 0u);
+  }
+}
+
+TEST(Glb, carries_extras_as_they_were_written) {
+  const tinygltf::Model m =
+      parse(encode({textured_sheet(2)}, {.extras_json = R"({"sku":"12-A","n":[1,2.5],"ok":true,"big":5000000000})"}));
+  EXPECT_EQ(m.asset.extras.Get("sku").Get<std::string>(), "12-A");
+  EXPECT_EQ(m.asset.extras.Get("n").Get(1).GetNumberAsDouble(), 2.5);
+  EXPECT_TRUE(m.asset.extras.Get("ok").Get<bool>());
+  EXPECT_EQ(m.asset.extras.Get("big").GetNumberAsDouble(), 5e9);
+}
+
+TEST(Glb, is_the_same_bytes_twice) {
+  const std::vector<RenderMesh> meshes{textured_sheet(9), plain_sheet("mannequin", 5)};
+  EXPECT_EQ(encode(meshes), encode(meshes));
+}
+
+TEST(Glb, refuses_what_no_viewer_could_show) {
+  const auto refused = [](RenderMesh mesh) {
+    const auto glb = encode_glb(std::span(&mesh, 1));
+    return !glb && glb.error().cause == Cause::internal;
+  };
+  EXPECT_FALSE(refused(textured_sheet(2)));
+  RenderMesh m = textured_sheet(2);
+  m.positions[1].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(refused(m));
+  m = textured_sheet(2);
+  m.normals[1] *= 2;
+  EXPECT_TRUE(refused(m));
+  m = textured_sheet(2);
+  m.triangles[0][2] = 1000;
+  EXPECT_TRUE(refused(m));
+  m = textured_sheet(2);
+  m.uv.pop_back();
+  EXPECT_TRUE(refused(m));
+  m = textured_sheet(2);
+  m.triangles.clear();
+  EXPECT_TRUE(refused(m));
+  m = textured_sheet(2);
+  m.texture.data.pop_back();
+  EXPECT_TRUE(refused(m));
+  EXPECT_FALSE(encode_glb({}));
+  m = textured_sheet(2);
+  EXPECT_FALSE(encode_glb(std::span(&m, 1), {.extras_json = "{broken"}));
+}
+
+}  // namespace
+}  // namespace vitrine::test

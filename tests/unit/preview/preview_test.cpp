@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vitrine/preview.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace vitrine::test {
+namespace {
+
+constexpr std::array<int, 3> kFront{190, 45, 40}, kBack{40, 60, 180}, kMark{240, 230, 60};
+
+/// A closed tube about the y axis, from 0.6 m to 1.2 m. The left half of the atlas is the front, the right half the
+/// back, each with a yellow mark on the left of the front frame (x < 0).
+RenderMesh tube(double radius = 0.2) {
+  RenderMesh m;
+  m.name = "garment";
+  m.texture = Image(128, 64, 3);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 128; ++x) {
+      const bool mark = x % 64 >= 8 && x % 64 < 26 && y >= 20 && y < 44;
+      const auto& colour = mark ? kMark : x < 64 ? kFront : kBack;
+      for (int c = 0; c < 3; ++c) m.texture.at(x, y)[c] = static_cast<std::uint8_t>(colour[c]);
+    }
+  constexpr int n = 32, rows = 12;
+  for (int side = 0; side < 2; ++side) {
+    const auto base = static_cast<std::uint32_t>(m.positions.size());
+    for (int j = 0; j <= rows; ++j)
+      for (int i = 0; i <= n; ++i) {
+        const double a = std::numbers::pi * (1.0 * i / n - 0.5);
+        const Vec3 out(std::sin(a), 0, side ? -std::cos(a) : std::cos(a));
+        m.positions.emplace_back(radius * out + Vec3(0, 0.6 + 0.6 * j / rows, 0));
+        m.normals.push_back(out);
+        m.uv.emplace_back(0.5 * side + (1.0 + 62.0 * i / n) / 128.0, 1.0 - 1.0 * j / rows);
+      }
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < n; ++i) {
+        const std::uint32_t a = base + j * (n + 1) + i, b = a + 1, d = a + n + 1, c = d + 1;
+        if (side) {
+          m.triangles.push_back({a, c, b});
+          m.triangles.push_back({a, d, c});
+        } else {
+          m.triangles.push_back({a, b, c});
+          m.triangles.push_back({a, c, d});
+        }
+      }
+  }
+  return m;
+}
+
+constexpr PreviewOptions kSmall{.view_width = 120, .view_height = 180, .samples = 2, .occlusion_rays = 4};
+
+Image render(const std::vector<RenderMesh>& meshes, const PreviewOptions& options = kSmall) {
+  auto picture = render_preview(meshes, options);
+  EXPECT_TRUE(picture) << (picture ? "" : picture.error().message);
+  return picture ? *std::move(picture) : Image(options.view_width * 3, options.view_height, 3);
+}
+
+/// Which of the scene's colours a pixel shows; hue, not brightness, decides.
+enum class Seen { ground, front, back, mark };
+Seen seen(const std::uint8_t* p) {
+  const int r = p[0], g = p[1], b = p[2];
+  if (r > 2 * g && r > 2 * b) return Seen::front;
+  if (b > 2 * r && b > 3 * g / 2) return Seen::back;
+  if (r > 2 * b && g > 2 * b) return Seen::mark;
+  return Seen::ground;
+}
+
+struct Count {
+  int pixels = 0;
+  double mean_x = 0;  // within its view
+};
+Count count(const Image& picture, int view, Seen what) {
+  Count c;
+  const int width = picture.width / 3;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (seen(picture.at(view * width + x, y)) == what) {
+        ++c.pixels;
+        c.mean_x += x;
+      }
+  if (c.pixels) c.mean_x /= c.pixels;
+  return c;
+}
+
+TEST(Preview, shows_front_three_quarter_and_back_side_by_side) {
+  const Image picture = render({tube()});
+  EXPECT_EQ(picture.width, 360);
+  EXPECT_EQ(picture.height, 180);
+  EXPECT_EQ(picture.channels, 3);
+  EXPECT_GT(count(picture, 0, Seen::front).pixels, 1000);
+  EXPECT_EQ(count(picture, 0, Seen::back).pixels, 0);
+  EXPECT_GT(count(picture, 1, Seen::front).pixels, 800);
+  EXPECT_GT(count(picture, 1, Seen::back).pixels, 50);
+  EXPECT_GT(count(picture, 2, Seen::back).pixels, 1000);
+  EXPECT_EQ(count(picture, 2, Seen::front).pixels, 0);
+}
+
+TEST(Preview, is_not_mirrored) {
+  const Image picture = render({tube()});
+  const Count front = count(picture, 0, Seen::mark), back = count(picture, 2, Seen::mark);
+  ASSERT_GT(front.pixels, 50);
+  ASSERT_GT(back.pixels, 50);
+  EXPECT_LT(front.mean_x, 54);  // x < 0 is the left of the front view
+  EXPECT_GT(back.mean_x, 66);   // and seen from behind it is the right
+}
+
+TEST(Preview, shows_a_surface_that_faces_the_camera_in_its_own_colour) {
+  const Image picture =
+      render({tube(0.4)}, {.view_width = 120, .view_height = 180, .samples = 8, .occlusion_rays = 16});
+  // The middle of the front, away from the mark.
+  const auto linear = [](double v) { return std::pow(v / 255.0, 2.2); };
+  std::array<double, 3> mean{};
+  for (int y = 70; y < 110; ++y)
+    for (int x = 58; x < 66; ++x)
+      for (int c = 0; c < 3; ++c) mean[c] += linear(picture.at(x, y)[c]) / 320.0;
+  EXPECT_NEAR(mean[0] / linear(kFront[0]), 1.0, 0.10);
+}
+
+TEST(Preview, is_the_same_bytes_twice) {
+  EXPECT_EQ(render({tube()}).data, render({tube()}).data);
+}
+
+TEST(Preview, stands_before_a_clean_backdrop) {
+  const Image picture = render({tube()});
+  const std::uint8_t* corner = picture.at(0, 0);
+  EXPECT_GT(corner[0], 200);
+  for (int x = 0; x < picture.width; ++x)
+    for (int y : {0, 1})
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(picture.at(x, y)[c], corner[0]);
+  for (int y = 0; y < picture.height; ++y)
+    for (int c = 0; c < 3; ++c) ASSERT_EQ(picture.at(0, y)[c], corner[0]);
+}
+
+TEST(Preview, keeps_the_whole_subject_in_the_frame) {
+  RenderMesh wide = tube(0.7);
+  const Image picture = render({wide});
+  for (int view = 0; view < 3; ++view)
+    for (int y = 0; y < picture.height; ++y)
+      for (int x : {0, 119}) EXPECT_EQ(seen(picture.at(120 * view + x, y)), Seen::ground);
+  EXPECT_GT(count(picture, 0, Seen::front).pixels, 3000);
+}
+
+TEST(Preview, shows_the_frame_it_is_asked_for) {
+  PreviewOptions close = kSmall;
+  close.frame_bottom = 0.8;
+  close.frame_top = 1.0;
+  // Within the tube's height nothing but tube is seen in the middle column.
+  const Image picture = render({tube()}, close);
+  for (int y = 0; y < picture.height; ++y) EXPECT_NE(seen(picture.at(75, y)), Seen::ground) << y;
+}
+
+TEST(Preview, shows_the_inner_side_darker_than_the_outer) {
+  // One sheet, seen from its outer face in the front view and from its inner face in the back view.
+  RenderMesh sheet;
+  sheet.name = "garment";
+  sheet.colour = {0.5, 0.1, 0.1};
+  for (const Vec2& p : {Vec2(-0.3, 0.5), Vec2(0.3, 0.5), Vec2(0.3, 1.3), Vec2(-0.3, 1.3)}) {
+    sheet.positions.emplace_back(p.x(), p.y(), 0);
+    sheet.normals.emplace_back(0, 0, 1);
+  }
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Image picture = render({sheet});
+  const int outer = picture.at(60, 90)[0], inner = picture.at(240 + 60, 90)[0];
+  EXPECT_LT(inner, outer - 10);
+  EXPECT_GT(inner, outer / 2);
+}
+
+TEST(Preview, grounds_a_standing_body_with_a_contact_shadow) {
+  RenderMesh body = tube(0.12);
+  for (Vec3& p : body.positions) p.y() -= 0.6;
+  const Image picture = render({body});
+  const int empty = picture.at(0, 0)[0];
+  int darkest = 255;
+  for (int x = 0; x < 120; ++x)
+    for (int y = 0; y < picture.height; ++y)
+      if (seen(picture.at(x, y)) == Seen::ground) darkest = std::min<int>(darkest, picture.at(x, y)[0]);
+  EXPECT_LT(darkest, empty - 15);
+}
+
+TEST(Preview, refuses_what_it_cannot_draw) {
+  const auto refused = [](RenderMesh m, PreviewOptions o = kSmall) {
+    const auto picture = render_preview(std::span(&m, 1), o);
+    return picture ? 0 : picture.error().exit_code();
+  };
+  EXPECT_FALSE(render_preview({}, kSmall));
+  RenderMesh m = tube();
+  m.positions[3].z() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refused(m), 70);
+  m = tube();
+  m.triangles[3][1] = 1'000'000;
+  EXPECT_EQ(refused(m), 70);
+  m = tube();
+  m.texture.data.pop_back();
+  EXPECT_EQ(refused(m), 70);
+  m = tube();
+  m.normals.clear();
+  EXPECT_EQ(refused(m), 70);
+  EXPECT_EQ(refused(tube(), {.view_width = 1 << 30}), 64);
+  EXPECT_EQ(refused(tube(), {.frame_bottom = 1.0, .frame_top = 0.5}), 64);
+}
+
+}  // namespace
+}  // namespace vitrine::test
