@@ -70,10 +70,11 @@ void collect(const Pattern& pattern, const Nodes& nodes, const SheetStiffness& s
 void add_hinge(Cloth& c, const HalfEdge& s, const HalfEdge& t, double bend) {
   const double area = s.area + t.area;
   if (area < tiny_area || s.opposite == t.opposite) return;
-  // Bergou et al. 2006, eq. (4): E = (B/2) * 3/(A0+A1) * |sum K_j x_j|^2.
+  // Bergou et al. 2006: E = (B/2) * w/(A0+A1) * |sum K_j x_j|^2, there with w = 3. Here w = 1: with it a cylinder costs
+  // B/2 * curvature^2 per area on square and on equilateral meshes, which is what the rigidity B of a cloth means.
   const double k[4] = {s.cot_b + t.cot_b, s.cot_a + t.cot_a, -(s.cot_a + s.cot_b), -(t.cot_a + t.cot_b)};
   c.hinge.insert(c.hinge.end(), {s.a, s.b, s.opposite, t.opposite});
-  c.hinge_k.push_back(bend * 3 / area);
+  c.hinge_k.push_back(bend / area);
   c.hinge_c.insert(c.hinge_c.end(), k, k + 4);
 }
 

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whole garments on a synthetic woman.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "scene.hpp"
+#include "vitrine/sewing.hpp"
+
+namespace vitrine {
+namespace {
+
+using Placed = std::vector<std::vector<Vec3>>;
+
+std::vector<Pattern> levels_of(const scene::Outline& outline, std::initializer_list<double> edges) {
+  std::vector<Pattern> out;
+  for (const double h : edges) out.push_back(scene::make_pattern(outline, h));
+  return out;
+}
+
+Drape must(Result<Drape> r) {
+  if (!r) ADD_FAILURE() << r.error().code << ": " << r.error().message;
+  return r ? *std::move(r) : Drape{};
+}
+
+Drape dress(const scene::Outline& outline, std::initializer_list<double> edges, const SewingOptions& options = {},
+            const Fabric& fabric = scene::cotton()) {
+  const auto levels = levels_of(outline, edges);
+  return must(sew_and_drape(levels, scene::place_flat(levels.front(), 0.16), fabric, scene::woman(), options));
+}
+
+bool finite(const Drape& d) {
+  for (const auto& panel : d.positions)
+    for (const Vec3& p : panel)
+      if (!p.allFinite()) return false;
+  return true;
+}
+
+bool same_bytes(const Placed& a, const Placed& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t p = 0; p < a.size(); ++p)
+    if (a[p].size() != b[p].size() || std::memcmp(a[p].data(), b[p].data(), a[p].size() * sizeof(Vec3)) != 0)
+      return false;
+  return true;
+}
+
+class Garments : public testing::TestWithParam<const char*> {
+ protected:
+  scene::Outline outline() const {
+    const std::string name = GetParam();
+    return name == "vest" ? scene::vest() : name == "skirt" ? scene::skirt() : scene::long_sleeve();
+  }
+};
+
+TEST_P(Garments, come_to_rest_sewn_and_outside_the_body) {
+  const auto levels = levels_of(outline(), {0.05, 0.028});
+  SewingOptions o;
+  const Drape d =
+      must(sew_and_drape(levels, scene::place_flat(levels.front(), 0.16), scene::cotton(), scene::woman(), o));
+  EXPECT_EQ(d.status, "OK") << d.detail;
+  EXPECT_LE(d.residual, 1.05e-3);
+  EXPECT_LE(d.seam_gap_mm_max, 3);
+  EXPECT_LE(d.penetration_mm_max, 0.5);
+  EXPECT_LT(d.strain_p99, 0.2);
+  ASSERT_EQ(d.levels.size(), 2u);
+  ASSERT_EQ(d.positions[0].size(), levels.back().meshes[0].nodes.size());
+  for (const NodePair& q : levels.back().pairs) {
+    EXPECT_EQ(d.welded[q.panel_a][q.node_a], d.welded[q.panel_b][q.node_b]);
+    EXPECT_EQ(d.positions[q.panel_a][q.node_a], d.positions[q.panel_b][q.node_b]);
+  }
+  // The body stays between the panels: front before back at every seamless node of the middle.
+  double front = 0, back = 0;
+  for (std::size_t i = 0; i < d.positions[0].size(); ++i) front += d.positions[0][i].z(), back += d.positions[1][i].z();
+  EXPECT_GT(front, back);
+  EXPECT_FALSE(d.modelled.empty());
+  EXPECT_FALSE(d.skipped.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Garments, testing::Values("vest", "skirt", "long_sleeve"));
+
+TEST(Drape, nodes_stay_above_nine_tenths_of_the_skin_offset) {
+  const Drape d = dress(scene::vest(), {0.04});
+  double least = 1;
+  for (const auto& panel : d.positions)
+    for (const Vec3& p : panel) least = std::min(least, scene::woman().distance(p));
+  EXPECT_GE(least, 0.9 * 0.004);
+}
+
+TEST(Drape, same_input_same_bytes) {
+  const Drape a = dress(scene::long_sleeve(), {0.06, 0.04}), b = dress(scene::long_sleeve(), {0.06, 0.04});
+  EXPECT_TRUE(same_bytes(a.positions, b.positions));
+  EXPECT_EQ(a.residual, b.residual);
+}
+
+TEST(Drape, stiffness_and_mass_scaled_by_a_power_of_two_give_the_same_bytes) {
+  const Fabric one = scene::cotton();
+  Fabric scaled = one;
+  for (double* v : {&scaled.stretch, &scaled.shear, &scaled.bend, &scaled.mass}) *v *= 1024;
+  const Drape a = dress(scene::vest(), {0.05, 0.035}, {}, one), b = dress(scene::vest(), {0.05, 0.035}, {}, scaled);
+  EXPECT_TRUE(same_bytes(a.positions, b.positions));
+  EXPECT_EQ(a.levels.back().iterations, b.levels.back().iterations);
+}
+
+TEST(Drape, stiffness_above_the_cap_changes_nothing_and_is_reported) {
+  Fabric stiff = scene::cotton(), stiffer = stiff;
+  stiff.stretch = stiff.shear = 1e5;
+  stiffer.stretch = stiffer.shear = 1e7;
+  SewingOptions o;
+  o.residual = 1e-2;
+  const Drape a = dress(scene::vest(), {0.05}, o, stiff), b = dress(scene::vest(), {0.05}, o, stiffer);
+  EXPECT_GT(a.stiffness_cap, 0);
+  EXPECT_TRUE(same_bytes(a.positions, b.positions));
+}
+
+TEST(Drape, a_mirrored_scene_gives_a_mirrored_garment) {
+  // A skirt-like tube on structured grids, mirror-symmetric down to the triangles.
+  Pattern p;
+  PanelMesh mesh = scene::grid_mesh(1, 0.45, 16, 12, {0, 0});
+  for (Vec2& n : mesh.nodes) n = {(n.x() - 0.5) * (0.37 + (0.45 - n.y()) * 0.35), n.y() + 0.6};
+  p.meshes = {mesh, mesh};
+  p.panels.resize(2);
+  for (int j = 0; j <= 12; ++j) {
+    p.pairs.push_back({0, j * 17, 1, j * 17, 0});
+    p.pairs.push_back({0, j * 17 + 16, 1, j * 17 + 16, 1});
+  }
+  const std::vector<Pattern> levels{p};
+  const Drape d = must(sew_and_drape(levels, scene::place_flat(p, 0.16), scene::cotton(), scene::woman(), {}));
+  EXPECT_EQ(d.status, "OK") << d.detail;
+  double worst = 0;
+  for (int s = 0; s < 2; ++s)
+    for (int j = 0; j <= 12; ++j)
+      for (int i = 0; i <= 16; ++i) {
+        const Vec3 left = d.positions[s][j * 17 + i], right = d.positions[s][j * 17 + 16 - i];
+        worst = std::max(worst, (left - Vec3(-right.x(), right.y(), right.z())).norm());
+      }
+  EXPECT_LT(worst, 0.005);
+}
+
+TEST(Drape, finer_meshes_agree_with_coarser_ones) {
+  SewingOptions o;
+  const Drape coarse = dress(scene::vest(), {0.05}, o), fine = dress(scene::vest(), {0.05, 0.025}, o);
+  auto hem = [](const Drape& d) {
+    double y = 9;
+    for (const auto& panel : d.positions)
+      for (const Vec3& p : panel) y = std::min(y, p.y());
+    return y;
+  };
+  EXPECT_NEAR(hem(coarse), hem(fine), 0.02);
+  EXPECT_LT(fine.levels.back().change_mean_mm, 15);
+}
+
+TEST(Drape, progress_reports_level_iteration_and_residual) {
+  SewingOptions o;
+  o.residual = 1e-2;
+  int calls = 0;
+  o.progress = [&](int level, int iteration, double residual) {
+    ++calls;
+    EXPECT_EQ(level, 0);
+    EXPECT_GE(iteration, 0);
+    EXPECT_TRUE(std::isfinite(residual));
+  };
+  dress(scene::vest(), {0.07}, o);
+  EXPECT_GT(calls, 1);
+}
+
+TEST(Drape, a_skirt_wider_than_the_hips_is_not_supported) {
+  SewingOptions o;
+  const Drape d = dress(scene::skirt(0.62), {0.06, 0.05}, o);
+  EXPECT_EQ(d.status, "NOT_SUPPORTED");
+  EXPECT_FALSE(d.detail.empty());
+  EXPECT_TRUE(finite(d));
+  EXPECT_EQ(d.positions[0].size(), scene::make_pattern(scene::skirt(0.62), 0.05).meshes[0].nodes.size());
+}
+
+TEST(Drape, a_garment_too_small_for_the_body_is_returned_with_a_status) {
+  scene::Outline o = scene::skirt(0.15);
+  const Drape d = dress(o, {0.05});
+  EXPECT_TRUE(d.status == "SEAM_OPEN" || d.status == "OVERSTRETCHED") << d.status;
+  EXPECT_TRUE(finite(d));
+  EXPECT_FALSE(d.detail.empty());
+}
+
+TEST(Drape, a_small_budget_ends_not_converged_with_the_residual) {
+  SewingOptions o;
+  o.max_iterations = 30;
+  const Drape d = dress(scene::vest(), {0.05}, o);
+  EXPECT_EQ(d.status, "NOT_CONVERGED");
+  EXPECT_GT(d.residual, o.residual);
+  EXPECT_TRUE(finite(d));
+}
+
+TEST(Drape, every_stiffness_and_mass_ends_finite_or_with_an_error) {
+  const auto levels = levels_of(scene::vest(), {0.09});
+  const Placed placed = scene::place_flat(levels.front(), 0.16);
+  SewingOptions o;
+  o.residual = 1e-2;
+  o.max_iterations = 4000;
+  for (const double k : {1e-2, 1.0, 1e2, 1e4, 1e7})
+    for (const double m : {1e-6, 1e-3, 0.1, 1.0})
+      for (const double bend : {0.0, 1e-5}) {
+        Fabric f = scene::cotton();
+        f.stretch = k;
+        f.shear = 0.3 * k;
+        f.mass = m;
+        f.bend = bend;
+        const auto r = sew_and_drape(levels, placed, f, scene::woman(), o);
+        if (!r) {
+          EXPECT_EQ(r.error().code, "FABRIC_TOO_SOFT") << "k " << k << " m " << m;
+          EXPECT_GT(m * 9.81 * 0.63, k);
+          continue;
+        }
+        EXPECT_TRUE(finite(*r)) << "k " << k << " m " << m;
+        EXPECT_TRUE(std::isfinite(r->residual));
+        EXPECT_FALSE(r->status.empty());
+      }
+}
+
+TEST(Drape, weightless_cloth_and_missing_gravity_come_to_rest) {
+  Fabric f = scene::cotton();
+  f.mass = 0;
+  SewingOptions o;
+  o.residual = 1e-2;
+  o.max_iterations = 5000;
+  EXPECT_TRUE(finite(dress(scene::vest(), {0.08}, o, f)));
+  o.gravity = 0;
+  EXPECT_TRUE(finite(dress(scene::vest(), {0.08}, o)));
+}
+
+TEST(Drape, needle_triangles_and_coincident_nodes_do_no_harm) {
+  auto levels = levels_of(scene::vest(), {0.08});
+  for (PanelMesh& m : levels[0].meshes) {
+    const Triangle t = m.triangles.front();
+    m.nodes.push_back(m.nodes[t[0]]);  // a double of a corner
+    const auto twin = static_cast<std::uint32_t>(m.nodes.size() - 1);
+    m.triangles.push_back({t[0], twin, t[1]});
+    m.nodes.push_back(0.5 * (m.nodes[t[0]] + m.nodes[t[1]]) + Vec2(0, 1e-7));
+    m.triangles.push_back({t[0], t[1], twin + 1});
+  }
+  SewingOptions o;
+  o.residual = 1e-2;
+  o.max_iterations = 3000;
+  const Drape d = must(sew_and_drape(levels, scene::place_flat(levels[0], 0.16), scene::cotton(), scene::woman(), o));
+  EXPECT_TRUE(finite(d));
+}
+
+TEST(Drape, panels_that_start_inside_the_body_come_out_on_their_own_side) {
+  const auto levels = levels_of(scene::vest(), {0.05});
+  const Drape d = must(sew_and_drape(levels, scene::place_flat(levels[0], 0.03), scene::cotton(), scene::woman(), {}));
+  EXPECT_LE(d.penetration_mm_max, 2);
+  for (std::size_t i = 0; i < d.positions[0].size(); ++i) {
+    const Vec2 q = levels[0].meshes[0].nodes[i];
+    if (std::abs(q.x()) > 0.1 || q.y() > 1.3) continue;
+    EXPECT_GT(d.positions[0][i].z(), 0);
+    EXPECT_LT(d.positions[1][i].z(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace vitrine
