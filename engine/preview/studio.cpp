@@ -19,9 +19,10 @@ constexpr double kSkyBelow = 0.70;    // light from below against light from abo
 constexpr double kInnerSide = 0.72;   // cloth seen from inside gets what comes through
 constexpr double kReach = 0.32;       // [m] how far folds and limbs shade each other
 constexpr double kLift = 6e-4;        // [m] off the surface; the cloth lies 4 mm off the body
-constexpr double kFloorReach = 0.55;  // [m] of the contact shadow
-constexpr double kFloorDark = 0.62;   // how dark a fully covered floor gets
+constexpr double kFloorReach = 0.45;  // [m] of the contact shadow
+constexpr double kFloorDark = 0.75;   // how dark a fully covered floor gets
 constexpr double kFloorCast = 0.10;   // the key light's own shadow on it
+constexpr double kFarthest = 10.0;    // [m] across any subject
 constexpr float kBackdrop = 0.735F;   // linear; sRGB 223: white cloth still stands out
 
 }  // namespace
@@ -46,7 +47,7 @@ Colour Studio::backdrop() const {
 Colour Studio::look(const Camera& camera, const Vec2& film, int x, int y, int sample) const {
   const Vec3 from = camera.eye(), direction = camera.direction(film);
   if (const auto hit = tracer_.first_hit(from, direction)) return shade(camera, direction, *hit, x, y, sample);
-  return floor(camera, from, direction, x, y, sample);
+  return floor(camera, film, direction, x, y, sample);
 }
 
 /// Share of the hemisphere over `normal` that is open, cosine-weighted; near things count more than far ones because
@@ -61,6 +62,16 @@ double Studio::openness(const Vec3& point, const Vec3& normal, double reach, int
     if (!tracer_.blocked(point, d, reach * (0.06 + 0.94 * sequence.third(i)))) ++open;
   }
   return static_cast<double>(open) / options_.occlusion_rays;
+}
+
+/// Share of a lamp in direction `towards` that reaches a point.
+double Studio::lit(const Vec3& point, const Vec3& towards, double spread, int x, int y, int sample) const {
+  const Sequence sequence(x, y, 2);
+  const int rays = std::max(1, options_.occlusion_rays / 4);
+  int open = 0;
+  for (int k = 0; k < rays; ++k)
+    if (!tracer_.blocked(point, cone_direction(towards, spread, sequence.point(sample * rays + k)), kFarthest)) ++open;
+  return static_cast<double>(open) / rays;
 }
 
 Colour Studio::shade(const Camera& camera, const Vec3& direction, const Hit& hit, int x, int y, int sample) const {
@@ -100,9 +111,7 @@ Colour Studio::shade(const Camera& camera, const Vec3& direction, const Hit& hit
   light += kFillPower * std::max(0.0, normal.dot(fill)) * open;
   const double facing = normal.dot(key);
   if (facing > 0) {
-    const Sequence sequence(x, y, 2);
-    const Vec3 towards = cone_direction(key, kKeySpread, sequence.point(sample));
-    if (!tracer_.blocked(start, towards, 10.0)) light += kKeyPower * facing;
+    light += kKeyPower * facing * lit(start, key, kKeySpread, x, y, sample);
   }
   if (inner) light *= kInnerSide;
 
@@ -116,7 +125,8 @@ Colour Studio::shade(const Camera& camera, const Vec3& direction, const Hit& hit
 }
 
 /// A seamless sweep: one colour everywhere, darker only where the subject stands close.
-Colour Studio::floor(const Camera& camera, const Vec3& from, const Vec3& direction, int x, int y, int sample) const {
+Colour Studio::floor(const Camera& camera, const Vec2& film, const Vec3& direction, int x, int y, int sample) const {
+  const Vec3 from = camera.eye();
   const double down = framing_.ground - from.y();
   if (!(direction.y() * down > 0)) return backdrop();
   const Vec3 point = from + direction * (down / direction.y());
@@ -125,10 +135,12 @@ Colour Studio::floor(const Camera& camera, const Vec3& from, const Vec3& directi
   const Vec3 start = point + kLift * Vec3::UnitY();
   const double covered = 1.0 - openness(start, Vec3::UnitY(), kFloorReach, x, y, sample);
   const Vec3 key = kKey.x() * camera.right + kKey.y() * camera.up + kKey.z() * camera.back;
-  const Sequence sequence(x, y, 2);
-  const bool shadowed = tracer_.blocked(start, cone_direction(key, 2.0 * kKeySpread, sequence.point(sample)), 10.0);
-  const double fade = std::clamp(4.0 * (1.0 - away), 0.0, 1.0);
-  const double dark = fade * (kFloorDark * covered + (shadowed ? kFloorCast : 0.0));
+  const double shadowed = 1.0 - lit(start, key, 2.0 * kKeySpread, x, y, sample);
+  // Neighbouring views meet without a step.
+  const double half = -framing_.top_left.x();
+  const double fade =
+      std::clamp(4.0 * (1.0 - away), 0.0, 1.0) * std::clamp((half - std::abs(film.x())) / (0.3 * half), 0.0, 1.0);
+  const double dark = fade * (kFloorDark * covered + kFloorCast * shadowed);
   return backdrop() * static_cast<float>(1.0 - std::min(1.0, dark));
 }
 

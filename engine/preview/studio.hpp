@@ -23,8 +23,10 @@ class Studio {
 
  private:
   Colour shade(const Camera& camera, const Vec3& direction, const Hit& hit, int x, int y, int sample) const;
-  Colour floor(const Camera& camera, const Vec3& from, const Vec3& direction, int x, int y, int sample) const;
+  Colour floor(const Camera& camera, const Vec2& film, const Vec3& direction, int x, int y, int sample) const;
   double openness(const Vec3& point, const Vec3& normal, double reach, int x, int y, int sample) const;
+
+  double lit(const Vec3& point, const Vec3& towards, double spread, int x, int y, int sample) const;
 
   std::span<const RenderMesh> meshes_;
   const Tracer& tracer_;

@@ -90,7 +90,7 @@ RenderMesh assemble_garment(const Pattern& pattern, const std::vector<std::vecto
 
 RenderMesh assemble_mannequin(const TriMesh& body) {
   RenderMesh mesh = empty_mesh("mannequin");
-  mesh.colour = {0.60, 0.565, 0.52};  // a matte grey-beige that no garment is mistaken for
+  mesh.colour = {0.52, 0.49, 0.45};  // a matte grey-beige that no garment is mistaken for
   mesh.positions = body.vertices;
   mesh.triangles = body.triangles;
   const bool finite =

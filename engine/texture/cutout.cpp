@@ -16,6 +16,8 @@ constexpr int kLargestSide = 1 << 15;     // [px]
 constexpr float kRim = 2.0F;  // [px]
 // Share of the board in a rim pixel from which it is taken for a mixture.
 constexpr float kMixed = 0.08F;
+// A rim pixel this much darker than the cloth behind it lies in the gap under the edge.
+constexpr float kShadow = 0.6F;
 // Colours are taken from a pixel further in: a faint mixture spread over the whole bled zone would show as a line.
 constexpr float kSource = 3.0F;  // [px]
 // Blur of the bled zone: near the panel just enough to break up streaks, further out wide.
@@ -63,23 +65,29 @@ cv::Mat nearest(const cv::Mat& seeds, cv::Mat& distance) {
   return labels;
 }
 
+float brightness(const cv::Vec3f& c) {
+  return 0.299F * c[0] + 0.587F * c[1] + 0.114F * c[2];
+}
+
 cv::Vec3b pixel_at(const cv::Mat& rgb, int index) {
   return rgb.at<cv::Vec3b>(index / rgb.cols, index % rgb.cols);
 }
 
-/// Marks the rim pixels whose colour lies on the way from the garment's to the board's.
+/// Marks the rim pixels whose colour lies on the way from the garment's to the board's, and those in the narrow shadow
+/// between the cloth and the board: sewn together they would draw a dark line along every seam.
 void drop_mixed(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& garment, const cv::Mat& board, cv::Mat& keep) {
   for (int y = 0; y < rgb.rows; ++y)
     for (int x = 0; x < rgb.cols; ++x) {
       if (!keep.at<uchar>(y, x) || depth.at<float>(y, x) > kRim) continue;
       const int inner = garment.at<int>(y, x), outer = board.at<int>(y, x);
-      if (inner < 0 || outer < 0 || inner == y * rgb.cols + x) continue;
-      const cv::Vec3f base(pixel_at(rgb, inner));
-      const cv::Vec3f way = cv::Vec3f(pixel_at(rgb, outer)) - base;
+      if (inner < 0 || inner == y * rgb.cols + x) continue;
+      const cv::Vec3f base(pixel_at(rgb, inner)), own(rgb.at<cv::Vec3b>(y, x));
+      if (brightness(own) < kShadow * brightness(base)) keep.at<uchar>(y, x) = 0;
+      if (outer < 0) continue;
+      const cv::Vec3f way = cv::Vec3f(pixel_at(rgb, outer)) - base, change = own - base;
       const float way2 = way.dot(way);
       // Board and garment of the same colour: a mixture shows nothing.
       if (way2 < 12.0F * 12.0F) continue;
-      const cv::Vec3f change = cv::Vec3f(rgb.at<cv::Vec3b>(y, x)) - base;
       const float share = change.dot(way) / way2;
       // Off the way lies the garment's own piping or stitching.
       const cv::Vec3f beside = change - share * way;

@@ -30,10 +30,10 @@ struct Atlas {
 
 /// Front and back photo side by side in one power-of-two picture; colours bled outwards past the outline so that no
 /// board shows at a seam; labels other than outside never reach it. Pixels of the panel's outer face are kept as they
-/// are, but for a rim of 2 px where they are visibly mixed with the board, a mild gain of the back photo where the two
-/// were lit differently, and the top value. The front lies on the left; integer photo coordinates are pixel centres.
-/// Errors (64): BAD_TEXTURE_OPTIONS; (65): NO_TEXTURE (a panel without a garment pixel), TEXTURE_TOO_SMALL; (70):
-/// BAD_TEXTURE_SOURCE.
+/// are, but for a rim of 2 px where they are mixed with the board or lie in its shadow, a mild gain of the back photo
+/// where the two were lit differently, and the top value. The front lies on the left; integer photo coordinates are
+/// pixel centres. Errors (64): BAD_TEXTURE_OPTIONS; (65): NO_TEXTURE (a panel without a garment pixel),
+/// TEXTURE_TOO_SMALL; (70): BAD_TEXTURE_SOURCE.
 Result<Atlas> make_atlas(std::span<const TextureSource> panels, const TextureOptions& options = {});
 
 /// The draped panels as one mesh: split at texture cuts, smooth normals over sewn seams, outward winding on both sides.
