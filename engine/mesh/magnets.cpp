@@ -114,7 +114,9 @@ int settle(std::vector<Vec2>& nodes, std::size_t outline_size, const Wall& wall,
         if (r_squared < kRange * kRange && r_squared > 0) force += d * (repulsion(r_squared) / std::sqrt(r_squared));
       };
       moving.near(inner[i], reach, [&](int j) { feel(inner[j]); });
-      fixed.near(inner[i], reach, [&](int j) { feel(wall.magnets()[j]); });
+      fixed.near(inner[i], reach, [&](int j) {
+        if (wall.faces(j, inner[i])) feel(wall.magnets()[j]);
+      });
       push[i] = force;
     }
     double largest = 0;

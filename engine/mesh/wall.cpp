@@ -51,6 +51,16 @@ Wall::Wall(std::span<const Vec2> outline, double edge_length)
       magnets_(outline.begin(), outline.end()),
       grid_(low_, high_, 1.5 * edge_length) {
   const std::size_t n = outline.size();
+  double turn = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 a = outline[i] - outline[0], b = outline[(i + 1) % n] - outline[0];
+    turn += a.x() * b.y() - a.y() * b.x();
+  }
+  const auto normal = [&](std::size_t i) {
+    const Vec2 d = outline[(i + 1) % n] - outline[i];
+    return turn > 0 ? Vec2(-d.y(), d.x()) : Vec2(d.y(), -d.x());
+  };
+  for (std::size_t i = 0; i < n; ++i) inward_.push_back({normal((i + n - 1) % n), normal(i)});
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 &a = outline[i], &b = outline[(i + 1) % n];
     const double length = (b - a).norm();
@@ -59,7 +69,10 @@ Wall::Wall(std::span<const Vec2> outline, double edge_length)
     for (int k = 0; k < parts; ++k) {
       const Vec2 p = a + (b - a) * (static_cast<double>(k) / parts);
       const Vec2 q = k + 1 == parts ? b : Vec2(a + (b - a) * (static_cast<double>(k + 1) / parts));
-      if (k > 0) magnets_.push_back(p);
+      if (k > 0) {
+        magnets_.push_back(p);
+        inward_.push_back({normal(i), normal(i)});
+      }
       pieces_.push_back({p, q});
       middles_.push_back(0.5 * (p + q));
       longest_ = std::max(longest_, length / parts);

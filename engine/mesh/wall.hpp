@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,11 @@ class Wall {
   /// The outline's nodes first, then the interpolated magnets that keep long segments tight; the latter are never
   /// triangulated.
   const std::vector<Vec2>& magnets() const { return magnets_; }
+  /// Whether p lies on the inner side of magnet i: what is across a slit (a sleeve beside the body) is not felt.
+  bool faces(int i, const Vec2& p) const {
+    const Vec2 d = p - magnets_[i];
+    return d.dot(inward_[i][0]) > 0 || d.dot(inward_[i][1]) > 0;
+  }
   /// Distance to the nearest piece of wall and the unit vector away from it; `limit` when none is nearer.
   double distance(const Vec2& p, double limit, Vec2* away = nullptr) const;
   const Vec2& low() const { return low_; }
@@ -57,6 +63,7 @@ class Wall {
   double longest_ = 0;
   std::vector<Piece> pieces_;
   std::vector<Vec2> magnets_, middles_;
+  std::vector<std::array<Vec2, 2>> inward_;  ///< normals of the segments before and after each magnet
   CellGrid grid_;
 };
 
