@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "smooth_field.hpp"
+
 namespace vitrine::sewing {
 namespace {
 
@@ -72,7 +74,7 @@ double contact_forces(Contact& c, const std::vector<double>& x, std::vector<doub
   for (ContactSample& s : c.samples) {
     if (!fresh && s.gap > lipschitz * (travelled(s, c.path) - s.travelled)) continue;
     Vec3 gradient;
-    s.gap = c.field->distance(where(s, x), gradient) - s.limit;
+    s.gap = smooth_distance(*c.field, where(s, x), gradient) - s.limit;
     s.travelled = travelled(s, c.path);
     if (s.gap >= 0) continue;
     // The gradient as it is, so that force and energy agree; only where the field is flat (its ridges, deep inside)
@@ -102,7 +104,8 @@ bool refresh_contact(Contact& c, const std::vector<double>& x) {
   bool raised = false;
   for (ContactSample& s : c.samples) {
     if (s.gap >= 0 || s.k >= c.k_most) continue;
-    if (s.limit - c.field->distance(where(s, x)) < 0.05 * c.offset) continue;
+    Vec3 gradient;
+    if (s.limit - smooth_distance(*c.field, where(s, x), gradient) < 0.05 * c.offset) continue;
     s.k = std::min(2 * s.k, c.k_most);
     raised = true;
   }
