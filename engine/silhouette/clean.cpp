@@ -73,17 +73,14 @@ cv::Mat fill_enclosed(const cv::Mat& mask, const cv::Mat& ground_like) {
   cv::Mat padded, labels, stats, centres;
   cv::copyMakeBorder(~mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 255);
   const int n = cv::connectedComponentsWithStats(padded, labels, stats, centres, 4, CV_32S);
+  const int outside_label = labels.at<int>(0, 0);
   labels = labels(cv::Rect(1, 1, mask.cols, mask.rows));
-  const int outside_label = cv::Mat(labels).empty() ? 0 : [&] {
-    cv::Mat all;
-    cv::connectedComponents(padded, all, 4, CV_32S);
-    return all.at<int>(0, 0);
-  }();
   cv::Mat solid = labels != outside_label, depth;
   cv::copyMakeBorder(solid, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
   cv::distanceTransform(padded, depth, cv::DIST_L2, 5);
   const double area = std::max(1, cv::countNonZero(solid)), size = std::sqrt(area);
   cv::Mat out = solid.clone();
+  const cv::Rect box = cv::boundingRect(solid);
   for (int k = 1; k < n; ++k) {
     if (k == outside_label) continue;
     const cv::Mat hole = labels == k;
@@ -95,7 +92,11 @@ cv::Mat fill_enclosed(const cv::Mat& mask, const cv::Mat& ground_like) {
       for (int x = 0; x < mask.cols; ++x)
         if (hole.at<std::uint8_t>(y, x))
           nearest = std::min(nearest, static_cast<double>(depth.at<float>(y + 1, x + 1)));
-    if (like > 0.6 && nearest < 0.16 * size) out.setTo(0, hole);
+    // A gap beside a sleeve stands upright; a neck opening lies near the top. A sheer band or a pale stripe does
+    // neither.
+    const int width = stats.at<int>(k, cv::CC_STAT_WIDTH), height = stats.at<int>(k, cv::CC_STAT_HEIGHT);
+    const bool high = stats.at<int>(k, cv::CC_STAT_TOP) + height < box.y + 0.35 * box.height;
+    if (like > 0.6 && nearest < 0.16 * size && (high || height > 0.8 * width)) out.setTo(0, hole);
   }
   return out;
 }

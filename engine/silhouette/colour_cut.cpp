@@ -21,7 +21,7 @@ constexpr std::size_t max_samples = 6000;
 constexpr int rounds = 5;
 constexpr double unary_clip = 12;       ///< [nat] no single pixel outvotes its neighbourhood
 constexpr double smoothness = 14;       ///< [nat] cost of a boundary link without contrast
-constexpr double darkest_shade = 0.68;  ///< cube root of the least light that is left in a cast shadow
+constexpr double darkest_shade = 0.63;  ///< cube root of the least light that is left in a cast shadow
 constexpr double shade_penalty = 3.0;   ///< [nat] shade is rarer than lit ground
 constexpr double place_scale = 30;      ///< picture side in the unit of Lab, for colour-and-place samples
 
@@ -220,7 +220,7 @@ double contrast_beta(const cv::Mat& lab) {
 
 }  // namespace
 
-cv::Mat cut_by_colour(const cv::Mat& rgb) {
+cv::Mat cut_by_colour(const cv::Mat& rgb, cv::Mat& ground_like) {
   cv::Mat calm;
   cv::bilateralFilter(rgb, calm, 5, 20, 2);
   const cv::Mat lab = lab_from_rgb(calm);
@@ -229,6 +229,7 @@ cv::Mat cut_by_colour(const cv::Mat& rgb) {
   cv::Mat ground_mask = ground_seed(lab), score(lab.size(), CV_32F), unary(lab.size(), CV_32F);
   ground.fit(lab, ground_mask);
   cv::Mat mask = cv::Mat::zeros(lab.size(), CV_8U);
+  ground_like = mask.clone();
   if (ground.empty()) return mask;
   const auto score_ground = [&](bool shadows) {
     for (int y = 0; y < lab.rows; ++y)
@@ -266,6 +267,7 @@ cv::Mat cut_by_colour(const cv::Mat& rgb) {
     cv::Mat next = minimum_cut(lab, unary, beta), change;
     cv::bitwise_xor(next, mask, change);
     mask = next;
+    ground_like = unary < -2;
     if (cv::countNonZero(change) < 0.0005 * static_cast<double>(mask.total())) break;
   }
   return mask;

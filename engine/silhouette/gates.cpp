@@ -13,6 +13,43 @@ Error refuse(const Photo& photo, const char* code, const std::string& what, cons
   return {Cause::unusable, code, photo.path + ": " + what, remedy, "silhouette"};
 }
 
+constexpr double cut_share = 0.25;        ///< part of the garment's width or height that the frame may graze
+constexpr double min_sides_differ = 0.7;  ///< share of the contour
+constexpr double min_edge_support = 0.6;  ///< share of the contour
+constexpr double least_difference = 3.0;  ///< [Lab] between the means of both sides of the contour
+constexpr float least_edge = 24;          ///< Sobel magnitude, a step of 6 grey values
+
+/// The longest stretch of one picture side that the garment covers, as a share of its extent along that side.
+double cut_by_frame(const cv::Mat& mask) {
+  const cv::Rect box = cv::boundingRect(mask);
+  const double along_x = std::max(cv::countNonZero(mask.row(0)), cv::countNonZero(mask.row(mask.rows - 1)));
+  const double along_y = std::max(cv::countNonZero(mask.col(0)), cv::countNonZero(mask.col(mask.cols - 1)));
+  return std::max(along_x / std::max(1, box.width), along_y / std::max(1, box.height));
+}
+
+struct Contrast {
+  double edge_support = 0, sides_differ = 0;
+};
+
+Contrast contrast_along(const cv::Mat& rgb, const cv::Mat& mask) {
+  const cv::Mat contour = contour_of(mask), lab = lab_from_rgb(rgb);
+  const int reach = std::max(1, std::max(rgb.cols, rgb.rows) / 250);
+  cv::Mat edge, inner, outer, weight;
+  cv::dilate(sobel_magnitude(rgb), edge, cv::Mat());
+  cv::erode(mask, inner, cv::Mat(), {-1, -1}, reach);
+  cv::dilate(mask, outer, cv::Mat(), {-1, -1}, reach);
+  const cv::Mat in = local_mean(lab, inner, 3 * reach, weight), out = local_mean(lab, ~outer, 3 * reach, weight);
+  double n = 0, supported = 0, differ = 0;
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) {
+      if (!contour.at<std::uint8_t>(y, x)) continue;
+      n += 1;
+      supported += edge.at<float>(y, x) > least_edge;
+      differ += distance2(in.at<cv::Vec3f>(y, x), out.at<cv::Vec3f>(y, x)) > least_difference * least_difference;
+    }
+  return {supported / std::max(n, 1.0), differ / std::max(n, 1.0)};
+}
+
 }  // namespace
 
 Error several_garments(const Photo& photo) {
@@ -21,14 +58,31 @@ Error several_garments(const Photo& photo) {
 }
 
 std::optional<Error> judge(const Photo& photo, const cv::Mat& mask, const SilhouetteOptions& options, Silhouette& out) {
-  const cv::Mat rgb = view(photo.rgb);
-  const double share = cv::countNonZero(mask) / static_cast<double>(mask.total());
-  (void)options;
-  (void)share;
-  cv::Mat contour = contour_of(mask), thick;
-  cv::dilate(sobel_magnitude(rgb), thick, cv::Mat());
-  const double n = std::max(1, cv::countNonZero(contour));
-  out.edge_support = cv::countNonZero(contour & (thick > 40)) / n;
+  const int area = cv::countNonZero(mask);
+  const bool drawn = out.method == "mask" || out.method == "alpha";
+  if (area == 0 && drawn)
+    return refuse(photo, "TOO_SMALL", "the mask or the transparency leaves nothing of the garment.",
+                  "Check the mask, or save the photo without transparency.");
+  if (area == 0)
+    return refuse(photo, "LOW_CONTRAST", "the garment cannot be told from the ground it lies on.",
+                  "Lay it on a board of another colour: a light garment on dark, a dark one on white; or add a mask.");
+  if (area < options.min_area * static_cast<double>(mask.total()))
+    return refuse(photo, "TOO_SMALL", "the garment covers too little of the photo.",
+                  "Go closer or crop the photo, so that the garment fills most of the picture.");
+  const Contrast c = contrast_along(view(photo.rgb), mask);
+  out.edge_support = c.edge_support;
+  out.contrast = c.sides_differ;
+  const double cut = cut_by_frame(mask);
+  // What the shop drew is the shop's word: the gates then only warn.
+  if (cut > cut_share && !drawn)
+    return refuse(photo, "TOUCHES_FRAME", "the garment is cut off by the border of the photo.",
+                  "Step back until some of the board shows on all four sides of the garment.");
+  if (cut > 0) out.warnings.push_back("TOUCHES_FRAME");
+  const double needed = options.min_contrast > 0 ? options.min_contrast : min_sides_differ;
+  if (!drawn && (c.sides_differ < needed || c.edge_support < min_edge_support))
+    return refuse(photo, "LOW_CONTRAST", "along much of its outline the garment looks like the ground it lies on.",
+                  "Lay it on a board of another colour: a light garment on dark, a dark one on white; or add a mask.");
+  if (!drawn && (c.sides_differ < 0.9 || c.edge_support < 0.85)) out.warnings.push_back("LOW_CONTRAST");
   return std::nullopt;
 }
 

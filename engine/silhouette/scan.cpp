@@ -95,6 +95,13 @@ void drop_specks(cv::Mat& edges, int least) {
       if (!keep[labels.at<int>(y, x)]) edges.at<std::uint8_t>(y, x) = 0;
 }
 
+/// How far a colour is from being the ground's colour `lit` in less light: that scales (L + 16, a, b) by one factor.
+float distance_to_shade(const cv::Vec3f& colour, const cv::Vec3f& lit) {
+  const cv::Vec3f c(colour[0] + 16, colour[1], colour[2]), g(lit[0] + 16, lit[1], lit[2]);
+  const float t = std::clamp(c.dot(g) / g.dot(g), 0.68f, 1.03f);
+  return std::sqrt(distance2(c, t * g));
+}
+
 }  // namespace
 
 cv::Mat thin_edges(const cv::Mat& edges) {
@@ -176,11 +183,19 @@ Scan scan_edges(const cv::Mat& rgb) {
   }
   // Pockets: board colour that the row and column scans enclose (beside sleeves, in the neck opening). They are
   // flooded from outside and stop at edges; soft shadows, which have the board's hue and no edge, go with them.
-  const float near = std::max(2.5f, static_cast<float>(3.5 * board.sigma));
-  cv::Mat like(rgb.size(), CV_8U);
+  const float near = std::max(1.2f, static_cast<float>(3.5 * board.sigma));
+  cv::Mat like(rgb.size(), CV_8U), shaded(rgb.size(), CV_8U);
   for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x)
-      like.at<std::uint8_t>(y, x) = distance2(lab.at<cv::Vec3f>(y, x), board.at(y, x)) < near * near ? 255 : 0;
+    for (int x = 0; x < rgb.cols; ++x) {
+      const cv::Vec3f colour = lab.at<cv::Vec3f>(y, x), lit = board.at(y, x);
+      like.at<std::uint8_t>(y, x) = distance2(colour, lit) < near * near ? 255 : 0;
+      shaded.at<std::uint8_t>(y, x) = distance_to_shade(colour, lit) < std::max(2.5f, near) ? 255 : 0;
+    }
+  // Where the garment itself could be the board in shade (grey on white), shade says nothing.
+  cv::Mat deep;
+  const int depth_in = std::max(2, static_cast<int>(0.05 * std::sqrt(share * static_cast<double>(region.total()))));
+  cv::erode(region, deep, cv::getStructuringElement(cv::MORPH_RECT, {2 * depth_in + 1, 2 * depth_in + 1}));
+  if (cv::countNonZero(shaded & deep) < 0.15 * cv::countNonZero(deep)) like |= shaded;
   cv::Mat wide = like & ~strong;
   wide.setTo(255, ~region);
   cv::Mat flooded = cv::Mat::zeros(rgb.rows + 2, rgb.cols + 2, CV_8U);
@@ -188,7 +203,7 @@ Scan scan_edges(const cv::Mat& rgb) {
   cv::copyMakeBorder(wide, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 255);
   cv::floodFill(padded, {0, 0}, 128);
   cv::Mat garment = padded(cv::Rect(1, 1, rgb.cols, rgb.rows)) != 128;
-  garment = fill_enclosed(main_piece(garment & ~(like & ~strong)), like);
+  garment = fill_enclosed(main_piece(garment & ~(like & ~strong), &scan.second), like);
   // The edge's outer half is board colour again.
   cv::Mat rim;
   cv::erode(garment, rim, cv::Mat());

@@ -11,6 +11,7 @@ struct Scan {
                       ///< the pockets of board colour
   cv::Mat painted;    ///< the photo with the ground painted in the unused colour
   cv::Vec3b unused;   ///< a colour that the photo does not show
+  double second = 0;  ///< area of the next largest piece as a share of the garment
   std::string doubt;  ///< empty when the result can be trusted
 };
 

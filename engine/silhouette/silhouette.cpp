@@ -38,14 +38,14 @@ bool has_cutout(const Image& alpha) {
 }
 
 /// The cut at working size, brought back to the photo's own size.
-cv::Mat colour_mask(const cv::Mat& rgb, int working_side) {
+cv::Mat colour_mask(const cv::Mat& rgb, int working_side, double& second) {
   const int side = std::max(rgb.cols, rgb.rows);
   const double scale = std::min(1.0, static_cast<double>(std::max(working_side, 64)) / side);
   cv::Mat small = rgb;
   if (scale < 1) cv::resize(rgb, small, {}, scale, scale, cv::INTER_AREA);
-  cv::Mat cut = cut_by_colour(small);
+  cv::Mat like, cut = cut_by_colour(small, like);
   if (cv::countNonZero(cut) == 0) return cv::Mat::zeros(rgb.size(), CV_8U);
-  cut = fill_enclosed(main_piece(cut), ~cut);
+  cut = fill_enclosed(main_piece(cut, &second), like);
   cut = without_loose_ends(cut, loose_radius(cut));
   if (scale < 1) {
     cv::resize(cut, cut, rgb.size(), 0, 0, cv::INTER_LINEAR);
@@ -58,6 +58,7 @@ Result<Silhouette> find(const Photo& photo, const SilhouetteOptions& options) {
   const cv::Mat rgb = view(photo.rgb);
   Silhouette out;
   cv::Mat mask;
+  double second = 0;  // the next largest piece, as a share of the garment
   if (!photo.mask.empty()) {
     out.method = "mask";
     out.labels = photo.mask;
@@ -65,14 +66,13 @@ Result<Silhouette> find(const Photo& photo, const SilhouetteOptions& options) {
   } else if (has_cutout(photo.alpha)) {
     out.method = "alpha";
     mask = view(photo.alpha) > 127;
-    double second = 0;
     const cv::Mat piece = main_piece(mask, &second);
-    if (second > several_share) return several_garments(photo);
     mask = fill_enclosed(piece, ~piece);
   } else {
     Scan scan = scan_edges(rgb);
     if (scan.doubt.empty()) {
       out.method = "sobel";
+      second = scan.second;
       mask = without_loose_ends(scan.mask, loose_radius(scan.mask));
       const double lost = 1 - cv::countNonZero(mask) / std::max(1.0, static_cast<double>(cv::countNonZero(scan.mask)));
       if (lost > 0.01) scan.doubt = "something thin hangs on the garment";
@@ -80,7 +80,7 @@ Result<Silhouette> find(const Photo& photo, const SilhouetteOptions& options) {
     if (!scan.doubt.empty()) {
       out.method = "colour";
       out.method_reason = scan.doubt;
-      mask = colour_mask(rgb, options.working_side);
+      mask = colour_mask(rgb, options.working_side, second);
     }
     if (cv::countNonZero(mask) > 0) {
       const int side = std::max(rgb.cols, rgb.rows);
@@ -88,6 +88,7 @@ Result<Silhouette> find(const Photo& photo, const SilhouetteOptions& options) {
       mask = main_piece(refine_contour(rgb, mask, reach));
     }
   }
+  if (second > several_share) return several_garments(photo);
   std::optional<Error> refused = judge(photo, mask, options, out);
   if (refused) return *refused;
   if (out.method != "mask") out.labels = to_image(mask);

@@ -20,8 +20,9 @@ struct Silhouette {
   Image labels;  ///< Label values, 1 channel, the size of Photo::rgb. Without a shop mask no pixel is label_inside
                  ///< yet: the inside of the back is found with the neckline, by the features room.
   std::string method;  ///< "mask", "alpha", "sobel" (the paper's scan) or "colour" (the stronger model that took over)
-  std::string method_reason;          ///< why the paper's scan was not enough; empty when it was
-  double edge_support = 0;            ///< [-] share of the contour that lies on a picture edge
+  std::string method_reason;  ///< why the paper's scan was not enough; empty when it was
+  double edge_support = 0;    ///< [-] share of the contour that lies on a picture edge
+  double contrast = 0;        ///< [-] share of the contour whose two sides differ in colour; the LOW_CONTRAST gate
   std::vector<std::string> warnings;  ///< reason codes of gates that did not refuse
 };
 
