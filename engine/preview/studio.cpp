@@ -22,8 +22,18 @@ constexpr double kLift = 6e-4;        // [m] off the surface; the cloth lies 4 m
 constexpr double kFloorReach = 0.45;  // [m] of the contact shadow
 constexpr double kFloorDark = 0.75;   // how dark a fully covered floor gets
 constexpr double kFloorCast = 0.10;   // the key light's own shadow on it
+constexpr float kShoulder = 0.76F;    // linear; sRGB 226
 constexpr double kFarthest = 10.0;    // [m] across any subject
 constexpr float kBackdrop = 0.735F;   // linear; sRGB 223: white cloth still stands out
+
+/// Below kShoulder colours stay exactly what they are; above, the brightest channel runs towards 1 without reaching it,
+/// so that folds in white cloth are not burnt out. All channels shrink alike: hues stay.
+Colour shoulder(const Colour& c) {
+  const float top = c.maxCoeff();
+  if (top <= kShoulder) return c;
+  const float room = 1.0F - kShoulder;
+  return c * ((kShoulder + room * (1.0F - std::exp((kShoulder - top) / room))) / top);
+}
 
 }  // namespace
 
@@ -121,7 +131,7 @@ Colour Studio::shade(const Camera& camera, const Vec3& direction, const Hit& hit
       u += w[i] * mesh.uv[t[i]].x();
       v += w[i] * mesh.uv[t[i]].y();
     }
-  return (static_cast<float>(light) * textures_[hit.mesh].at(u, v)).cwiseMin(1.0F);
+  return shoulder(static_cast<float>(light) * textures_[hit.mesh].at(u, v));
 }
 
 /// A seamless sweep: one colour everywhere, darker only where the subject stands close.
