@@ -3,10 +3,11 @@
 #include <assimp/scene.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <assimp/Importer.hpp>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -64,15 +65,22 @@ TEST_F(Files, name_the_path_and_the_reason_when_they_cannot_be_written) {
   EXPECT_THAT(names(), testing::ElementsAre("taken"));
 }
 
-TEST_F(Files, keep_the_old_version_when_the_new_one_fails) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+TEST_F(Files, keep_the_old_version_when_the_new_one_does_not_fit) {
   EXPECT_EQ(write_file(path("a"), std::string("old")), std::nullopt);
-  ::chmod(folder_.c_str(), 0555);
-  const auto error = write_file(path("a"), std::string("new"));
-  ::chmod(folder_.c_str(), 0755);
+  // A file size limit stands for a full disk; it holds for root as well.
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto error = write_file(path("a"), std::string(5000, 'x'));
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
   ASSERT_TRUE(error);
   EXPECT_EQ(error->exit_code(), 73);
+  EXPECT_THAT(error->message, testing::HasSubstr("too large"));
   EXPECT_EQ(read(path("a")), "old");
+  EXPECT_THAT(names(), testing::ElementsAre("a"));
 }
 
 TEST_F(Files, obj_reads_back_with_its_material_and_texture_beside_it) {
