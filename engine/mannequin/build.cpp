@@ -6,6 +6,7 @@
 #include "figure.hpp"
 #include "marching.hpp"
 #include "mesh_check.hpp"
+#include "remesh.hpp"
 #include "slice.hpp"
 
 namespace vitrine {
@@ -152,10 +153,13 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
     return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", "No body was found that has these measurements together.",
                  "Check bust, under_bust, waist, hip, inside_leg and neck_base against each other.", ""};
   const body::Figure figure(measurements, plan, angle, unknowns);
-  const auto field = [&figure](const Vec3& p) { return figure.distance(p); };
+  const body::Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
+                              [&figure](const Vec3& p) { return figure.gradient(p); },
+                              [&](const Vec3& p) { return options.surface_spacing * figure.detail(p); }};
   Mannequin result;
   result.source = "built-in " + measurements.sex;
-  result.mesh = body::march(field, figure.low, figure.high, options.surface_spacing);
+  result.mesh = body::march(surface.distance, figure.low, figure.high, 0.6 * options.surface_spacing);
+  body::remesh(result.mesh, surface, 5);
   body::describe(figure, measurements, plan, result);
   body::measure(figure, result);
   return result;

@@ -47,7 +47,7 @@ double Figure::head(const Vec3& p) const {
   Blob egg = skull_;
   egg.x *= narrow;
   egg.z *= t > 0 ? 1 - 0.12 * t * t : 1.0;
-  egg.centre.z() += t > 0 ? 0.10 * skull_.z * t * t : 0.0;
+  egg.centre.z() += t > 0 ? 0.16 * skull_.z * t * t : 0.0;
   return blob(egg, p);
 }
 
@@ -68,7 +68,7 @@ double Figure::distance(const Vec3& p) const {
   const Vec3 q = mirrored(p);
   double d = beyond(trunk_, p, 0.12) ? far_away : trunk_.distance(p);
   if (breast > 1e-4 && p.z() > 0 && std::abs(p.y() - bust_height) < 0.25)
-    d = smooth_min(d, smooth_min(blob(breast_, p), blob(breast_, q), 0.03), 0.045);
+    d = smooth_min(d, smooth_min(blob(breast_, p), blob(breast_, q), 0.04), 0.05 + 0.5 * breast);
   if (p.z() < 0.05 && std::abs(p.y() - hip_height) < 0.25)
     d = smooth_min(d, smooth_min(blob(seat_, p), blob(seat_, q), 0.05), 0.06);
   if (p.y() < hip_height + 0.2) {
@@ -134,6 +134,13 @@ double Figure::tape(const Vec3& centre, const Vec3& u, const Vec3& v) const {
 Vec3 Figure::leg_centre(double height) const {
   const Section s = leg_.at(height);
   return {s.x, height, s.z + 0.5 * (s.front - s.back)};
+}
+
+double Figure::detail(const Vec3& p) const {
+  const Vec3 side(std::abs(p.x()), p.y(), p.z());
+  const double past_wrist = (side - wrist).dot(arm_axis), above_neck = p.y() - neck_base.y();
+  const double fine = std::max({past_wrist / 0.05, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
+  return 1 - 0.42 * std::clamp(fine, 0.0, 1.0);
 }
 
 double Figure::crotch_height() const {

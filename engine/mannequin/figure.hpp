@@ -32,6 +32,8 @@ class Figure {
   double crotch_height() const;
   double crotch_depth() const { return crotch_z_; }
   Vec3 leg_centre(double height) const;  ///< middle of the right leg
+  /// How fine the triangles should be here: 1 on the trunk, less on hands, feet and head.
+  double detail(const Vec3& p) const;
   Vec3 head_centre() const { return skull_.centre; }
 
   // Where things are; heights and points [m].

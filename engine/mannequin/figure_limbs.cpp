@@ -34,7 +34,7 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
   const double ratio = 1.12;
   Section thigh = station(crotch - 0.012 * h, 0, 0.004 * h, plan.thigh_girth, ratio, 0.5);
   // Thighs keep apart, and do not stand out further than the hips.
-  const double gap = 0.011;
+  const double gap = 0.012;
   const double widest = std::max(0.5 * (hip_half_ + 0.004 * h - gap), 0.03 * h);
   if (thigh.a > widest) {
     const double girth = 0.75 * plan.thigh_girth + 0.25 * plan.thigh_girth * widest / thigh.a;
@@ -73,20 +73,25 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
     if (section.x - section.a < gap) section.x = section.a + gap;
   }
   s.push_back(thigh);
+  // Above the crotch the thigh follows the flank up to the hip joint and sinks into the trunk.
   Section hip = thigh;
   hip.s = hip_height;
-  hip.a = 0.80 * thigh.a;
-  hip.x = std::max(hip_half_ - 0.008 * h - hip.a, 0.3 * hip_half_);
-  hip.front *= 0.86;
-  hip.back *= 0.86;
+  hip.a = 0.84 * thigh.a;
+  hip.x = std::max(hip_half_ - 0.001 * h - hip.a, 0.3 * hip_half_);
+  hip.front *= 0.90;
+  hip.back *= 0.90;
   s.push_back(hip);
-  Section end = hip;
-  end.s = hip_height + 0.05 * h;
-  end.a = 0.5 * thigh.a;
-  end.x = 0.45 * hip_half_;
-  end.front *= 0.55;
-  end.back *= 0.55;
-  s.push_back(end);
+  const auto sink = [&](double rise, double width, double depth, double under) {
+    Section section = hip;
+    section.s = hip_height + rise;
+    section.a *= width;
+    section.x = std::max(trunk_.at(section.s).a - under - section.a, 0.2 * hip_half_);
+    section.front *= depth;
+    section.back *= depth;
+    s.push_back(section);
+  };
+  sink(0.030 * h, 0.75, 0.75, 0.005 * h);
+  sink(0.065 * h, 0.40, 0.45, 0.022 * h);
   leg_ = Loft(s, Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), 0.009 * h, 0.006);
 
   const double turn = 7 * pi / 180, length = plan.foot_length, half = 0.5 * plan.foot_breadth;
@@ -119,7 +124,7 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   const double biceps = 0.92 * plan.biceps_girth, forearm = 0.95 * plan.forearm_girth, wrist_girth = plan.wrist_girth;
   const double shoulder = 1.10 * biceps / (2 * pi);
   const double y = plan.acromion_height - shoulder;
-  arm_root = Vec3(0.5 * plan.biacromial - 0.004 * h, y, -0.004 * h);
+  arm_root = Vec3(0.5 * plan.biacromial + (woman_ ? -0.004 : 0.004) * h, y, -0.004 * h);
   // The arm must clear the chest at the bust, where the tape and the garment pass: first it moves out, then it lifts.
   const double clear = std::max(chest_half_, 0.6 * chest_half_ + 0.0 * h) + 0.016;
   const auto inner = [&](double angle) {
@@ -187,11 +192,10 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   arm_blend_ = 0.045;
   arm_free_ = 0.085 * h / std::cos(angle);
   // The girdle carries the slope from the side of the neck to the acromion.
-  const double neck_half = 0.98 * u.neck / (2 * pi);
-  const double neck_top = neck_base.y() + 0.000 * h;
+  const double neck_half = m.neck_base / (2 * pi);
   girdle_.ra = 0.026 * h;
   girdle_.rb = 0.80 * shoulder;
-  girdle_.a = Vec3(0.6 * neck_half, neck_top + 0.004 * h - girdle_.ra, -0.006 * h);
+  girdle_.a = Vec3(0.6 * neck_half, neck_base.y() - 0.003 * h - girdle_.ra, -0.006 * h);
   girdle_.b = arm_root + Vec3(-0.2 * shoulder, 0, 0);
 }
 

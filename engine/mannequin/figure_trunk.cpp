@@ -11,8 +11,8 @@ namespace {
 
 /// Depth / breadth of a section: the survey's ratio at the reference girth, deeper as the girth grows (anatomy: fat
 /// goes in front and behind; breadth follows the bones).
-double depth_ratio(double ratio, double girth, double reference) {
-  return ratio * std::pow(girth / reference, 0.24);
+double depth_ratio(double ratio, double girth, double reference, double growth = 0.24) {
+  return ratio * std::pow(girth / reference, growth);
 }
 
 Section sized(double s, double girth, double ratio, double z, double front_share, double n_front, double n_back) {
@@ -52,15 +52,15 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   const double chest_girth = u.under_bust + (woman_ ? 0.45 : 1.0) * u.bust;
   const double ratio_hip = depth_ratio(woman_ ? 0.655 : 0.70, u.hip, (woman_ ? 0.60 : 0.57) * h);
   const double ratio_waist = depth_ratio(woman_ ? 0.70 : 0.735, u.waist, (woman_ ? 0.47 : 0.50) * h);
-  const double ratio_ribs = depth_ratio(woman_ ? 0.72 : 0.70, u.under_bust, (woman_ ? 0.49 : 0.55) * h);
-  const double ratio_chest = depth_ratio(woman_ ? 0.74 : 0.70, chest_girth, (woman_ ? 0.51 : 0.58) * h);
+  const double ratio_ribs = depth_ratio(woman_ ? 0.72 : 0.70, u.under_bust, (woman_ ? 0.49 : 0.55) * h, 0.16);
+  const double ratio_chest = depth_ratio(woman_ ? 0.74 : 0.70, chest_girth, (woman_ ? 0.51 : 0.58) * h, 0.12);
   // A large waist stands out in front.
   const double belly = std::clamp((u.waist / h - 0.44) * 0.5, 0.0, 0.14);
   const double y0 = std::clamp(u.crotch, m.inside_leg - 0.03 * h, hip_height - 0.018 * h), y1 = hip_height,
                y2 = waist_height, y3 = under_bust_height, y4 = bust_height;
 
   std::vector<Section> s;
-  const Section hip = sized(y1, u.hip, ratio_hip, 0.004 * h, 0.46, 2.3, 2.3);
+  const Section hip = sized(y1, u.hip, ratio_hip, 0.004 * h, 0.46 + 0.3 * belly, 2.3, 2.3);
   const auto share_of_hip = [&](double y, double width, double front, double back) {
     Section section = hip;
     section.s = y;
@@ -69,10 +69,11 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
     section.back *= back;
     s.push_back(section);
   };
-  share_of_hip(y0, 0.16, 0.35, 0.45);
-  share_of_hip(y0 + 0.35 * (y1 - y0), 0.55, 0.66, 0.78);
-  share_of_hip(y0 + 0.70 * (y1 - y0), 0.86, 0.88, 0.95);
-  s.push_back(hip);
+  // Like briefs: below the hips the trunk draws in early and the thighs take over the outline.
+  share_of_hip(y0, 0.14, 0.34, 0.44);
+  share_of_hip(y0 + 0.35 * (y1 - y0), 0.42, 0.62, 0.74);
+  share_of_hip(y0 + 0.70 * (y1 - y0), 0.70, 0.84, 0.92);
+  share_of_hip(y1, 0.90, 0.96, 0.99);
   // Differences of girth, not ratios, run from landmark to landmark; the S-curves keep hips round and the waist soft.
   const auto between = [&](double t, double share) {
     const double y = y1 + t * (y2 - y1);
@@ -81,52 +82,54 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
     s.push_back(sized(y, girth, ratio_waist + w * (ratio_hip - ratio_waist), (0.020 - 0.016 * w) * h,
                       0.52 + belly * (1 - w * w) - 0.06 * w * w, 2.3, 2.35));
   };
-  between(0.25, 0.93);
+  between(0.25, 0.95);
   between(0.50, 0.68);
   between(0.75, 0.27);
   s.push_back(sized(y2, u.waist, ratio_waist, 0.020 * h, 0.52 + belly, 2.25, 2.4));
   s.push_back(sized(y2 + 0.5 * (y3 - y2), u.waist + 0.48 * (u.under_bust - u.waist), 0.5 * (ratio_waist + ratio_ribs),
-                    0.021 * h, 0.52 + 0.8 * belly, 2.3, 2.5));
-  s.push_back(sized(y3, u.under_bust, ratio_ribs, 0.020 * h, 0.52 + 0.4 * belly, 2.35, 2.6));
-  const Section chest = sized(y4, chest_girth, ratio_chest, 0.014 * h, 0.50, woman_ ? 2.3 : 2.6, 2.6);
+                    0.021 * h, 0.52 + 0.9 * belly, 2.3, 2.5));
+  s.push_back(sized(y3, u.under_bust, ratio_ribs, 0.020 * h, 0.52 + 0.75 * belly, 2.35, 2.6));
+  const Section chest = sized(y4, chest_girth, ratio_chest, 0.014 * h, 0.50 + 0.75 * belly, woman_ ? 2.3 : 2.5, 2.6);
   s.push_back(chest);
   chest_half_ = chest.a;
   // Above the bust the bones decide: the trunk closes in a dome under the shoulder girdle.
   const double y5 = std::max(plan.axilla_height, y4 + 0.025 * h), top = plan.acromion_height;
   const double upper = 0.5 * (0.80 * 0.5 * plan.biacromial + chest.a);
-  const auto dome = [&](double y, double a, double front, double back, double z) {
+  const double bony_front = std::min(chest.front, 0.072 * h), bony_back = std::min(chest.back, 0.072 * h);
+  const auto dome = [&](double y, double a, double front, double back, double soft, double z) {
     Section section = chest;
     section.s = y;
     section.a = a;
-    section.front = front * chest.front;
-    section.back = back * chest.back;
+    section.front = front * (bony_front + soft * (chest.front - bony_front));
+    section.back = back * (bony_back + soft * (chest.back - bony_back));
     section.z = z * h;
     s.push_back(section);
   };
   const double rise = top - y5;
-  dome(y5, upper, woman_ ? 0.98 : 0.97, 0.98, 0.008);
-  dome(y5 + 0.40 * rise, 0.90 * upper, 0.86, 0.92, 0.002);
-  dome(y5 + 0.75 * rise, 0.72 * upper, 0.72, 0.80, -0.002);
-  dome(y5 + 1.00 * rise, 0.52 * upper, 0.60, 0.66, -0.002);
-  dome(y5 + 1.20 * rise, 0.30 * upper, 0.45, 0.50, -0.002);
+  dome(y5, upper, 0.98, 0.98, 0.80, 0.008);
+  dome(y5 + 0.40 * rise, 0.90 * upper, 0.86, 0.92, 0.50, 0.002);
+  dome(y5 + 0.75 * rise, 0.72 * upper, 0.72, 0.80, 0.25, -0.002);
+  dome(y5 + 1.00 * rise, 0.52 * upper, 0.60, 0.66, 0.10, -0.002);
+  dome(y5 + 1.20 * rise, 0.30 * upper, 0.45, 0.50, 0.00, -0.002);
   hip_half_ = hip.a;
   trunk_ = Loft(s, Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), 0.010 * h, 0.012 * h);
 
-  breast = woman_ ? std::max(0.0, 0.22 * u.bust) : 0.0;
-  bust_apart = std::clamp(0.052 * h, 0.45 * chest.a, 0.60 * chest.a);
+  // On a man the same shape, shallow and broad, makes the chest muscles.
+  breast = woman_ ? std::max(0.0, 0.26 * u.bust / (1 + std::max(u.bust, 0.0) / 0.45)) : 0.005 * h;
+  bust_apart = (woman_ ? 0.53 : 0.48) * chest.a;
   const double share = bust_apart / chest.a;
   const double wall = chest.z + chest.front * std::pow(1 - std::pow(share, chest.n_front), 1 / chest.n_front);
-  const double round = 0.030 * h + 0.22 * breast;
+  const double round = 0.42 * chest.a + 0.10 * breast;
   breast_.centre = Vec3(bust_apart, y4 - 0.002 * h, wall - 0.016 * h);
-  breast_.x = round * 1.10;
-  breast_.up = round * 1.7;
-  breast_.down = std::min(0.95 * round, 0.034 * h);
+  breast_.x = round * (woman_ ? 1.0 : 1.05);
+  breast_.up = round * (woman_ ? 1.6 : 1.1);
+  breast_.down = woman_ ? std::min(0.90 * round, 0.036 * h) : 0.035 * h;
   breast_.z = 0.016 * h + breast;
 
   const double behind = hip.z - hip.back;
   seat_.centre = Vec3(0.47 * hip.a, y1 + 0.004 * h, behind + 0.045 * h);
   seat_.x = 0.46 * hip.a;
-  seat_.up = 0.050 * h;
+  seat_.up = 0.062 * h;
   seat_.down = 0.042 * h;
   seat_.z = 0.050 * h;
 }
@@ -136,7 +139,7 @@ void Figure::make_head(const Measurements& m, const BodyPlan& plan, const Unknow
   const double front = plan.suprasternal_height + 0.008 * h, back = plan.c7_height;
   const double base = u.neck / (2 * std::numbers::pi);
   // The neck-base plane falls from C7 to the pit of the throat; the neck leans forward out of it.
-  const double depth = 2 * 1.04 * base;
+  const double depth = 2.08 * m.neck_base / (2 * std::numbers::pi);
   const double tilt = std::asin(std::clamp((back - front) / depth, 0.15, 0.55));
   neck_base = Vec3(0, 0.5 * (front + back), 0.008 * h);
   neck_forward = Vec3(0, -std::sin(tilt), std::cos(tilt));

@@ -138,11 +138,9 @@ double Loft::distance(const Vec3& p) const {
     const double un = std::pow(u, n), vn = std::pow(v, n), g = std::pow(un + vn, 1 / n);
     const double gu = u > 1e-9 ? un / u * g / (un + vn) : 0, gv = v > 1e-9 ? vn / v * g / (un + vn) : 0;
     const double gx = gu / a * (dx < 0 ? -1 : 1), gz = gv / b * (dz < 0 ? -1 : 1);
-    double gs = 0;
-    if (s > start_ && s < end_) {
-      const double da = (B.a - A.a) / step_, db = is_front ? (B.front - A.front) / step_ : (B.back - A.back) / step_;
-      gs = -gx * (B.x - A.x) / step_ - gz * (B.z - A.z) / step_ - gu * u * da / a - gv * v * db / b;
-    }
+    // Beyond the ends the end's own slope stays in use: a jump of the divisor would show as a ring.
+    const double da = (B.a - A.a) / step_, db = is_front ? (B.front - A.front) / step_ : (B.back - A.back) / step_;
+    const double gs = -gx * (B.x - A.x) / step_ - gz * (B.z - A.z) / step_ - gu * u * da / a - gv * v * db / b;
     d = (g - 1) / std::sqrt(gx * gx + gz * gz + gs * gs);
   }
   const double e = std::max(s - end_, start_ - s) + rounding_, r = d + rounding_;
