@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "photo_parts.hpp"
+
 namespace vitrine::support {
 namespace {
 
@@ -95,7 +97,7 @@ PhotoSpec denim_skirt() {
   PhotoSpec s;
   s.garment = GarmentKind::skirt;
   s.seed = 53;
-  s.chest = 35;
+  s.chest = 34.5;
   s.hip = 44;
   s.hip_depth = 19;
   s.hem = 46;
@@ -163,13 +165,20 @@ std::string sample_manifest() {
   for (const SampleItem& item : sample_items()) {
     std::string title;
     for (const char c : item.title) title += c == '"' ? std::string("\"\"") : std::string(1, c);
-    const auto number = [](double value) {
-      const long tenths = std::lround(value * 10);
-      return std::to_string(tenths / 10) + (tenths % 10 != 0 ? "." + std::to_string(tenths % 10) : "");
+    // What a shop's tape would say of the garment as it lies: to half a centimetre, between the points that the garment
+    // types measure.
+    const auto points = make_shape(item.front).landmarks;
+    const bool skirt = item.front.garment == GarmentKind::skirt;
+    const auto point = [&](const char* top, const char* of_skirt) { return points.at(skirt ? of_skirt : top); };
+    const auto number = [](double cm) {
+      const long halves = std::lround(2 * cm);
+      return std::to_string(halves / 2) + (halves % 2 != 0 ? ".5" : "");
     };
+    const double chest = (point("armpit_right", "waist_right") - point("armpit_left", "waist_left")).norm();
+    const double length = points.at("hem_left").y() - point("neck_left", "waist_left").y();
     text += item.sku + "," + name_of(item.front.garment) + "," + item.neckline + "," + item.sku + "-front.jpg," +
-            item.sku + "-back.jpg,yes,,," + number(item.front.chest) + "," + number(item.front.length) + "," +
-            item.fabric + ",\"" + title + "\"\n";
+            item.sku + "-back.jpg,yes,,," + number(chest) + "," + number(length) + "," + item.fabric + ",\"" + title +
+            "\"\n";
   }
   return text;
 }

@@ -87,7 +87,8 @@ Half half_top(const PhotoSpec& s, double wide, double turn, double drop) {
     const Vec2 out = (shoulder - neck).normalized();
     h.upper = bezier(shoulder, shoulder + 5.5 * out, upper - 0.62 * s.sleeve_length * along, upper);
     h.cuff = line(upper, lower);
-    h.under = bezier(lower, lower - 16 * along, armpit + Vec2(1.2, 5.5), armpit);
+    // It leaves the body at an angle: a gap that closes like a needle's eye would hide the armpit from the mask.
+    h.under = bezier(lower, lower - 16 * along, armpit + Vec2(1.5 + 4 * std::sin(a), 4.2), armpit);
   }
   const double waist_y = armpit.y() + 0.42 * (hem.y() - armpit.y());
   const double waist_x = s.waist_share * armpit.x();

@@ -302,12 +302,13 @@ TEST_F(RunCatalog, a_stop_signal_ends_the_run_with_75_and_nothing_partial) {
 
 TEST_F(RunCatalog, the_callers_keys_cannot_change_what_the_run_states) {
   run(items({"a"}), [](const CatalogItem&, const std::string&) {
-    return ItemOutcome{
-        65, "{\"sku\":\"x\",\"status\":\"ok\",\"exit_code\":0,\"code\":7,\"message\":\"a\\nb\",\"ms\":5}"};
+    return ItemOutcome{65,
+                       "{\"sku\":\"x\",\"status\":\"ok\",\"exit_code\":0,\"code\":7,\"message\":\"a\\nb\",\"ms\":5}"};
   });
   const auto lines = report();
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0], R"({"sku":"a","garment":"vest","status":"refused","exit_code":65,"code":"","message":"a\nb","ms":5})");
+  EXPECT_EQ(lines[0],
+            R"({"sku":"a","garment":"vest","status":"refused","exit_code":65,"code":"","message":"a\nb","ms":5})");
 }
 
 TEST_F(RunCatalog, jobs_out_of_range_are_a_usage_error) {
