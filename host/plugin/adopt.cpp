@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <regex>
 
 #include "adopt_tables.hpp"
 
@@ -14,8 +13,6 @@ namespace {
 
 using adoption::Broken;
 using adoption::quoted;
-using adoption::read_name;
-using adoption::read_number;
 using adoption::read_span;
 using adoption::read_text;
 
@@ -94,17 +91,66 @@ struct Head {
   std::uint32_t magic, major, minor, size;
 };
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_small(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+/// The pieces between separators; an empty text has one empty piece.
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> pieces;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    pieces.push_back(text.substr(begin, end == std::string_view::npos ? end : end - begin));
+    if (end == std::string_view::npos) return pieces;
+    begin = end + 1;
+  }
+}
+
+bool is_reverse_uri(std::string_view id) {
+  const auto parts = split(id, '.');
+  return parts.size() >= 2 && std::all_of(parts.begin(), parts.end(), [](std::string_view part) {
+           return !part.empty() && (is_small(part[0]) || is_digit(part[0])) &&
+                  std::all_of(part.begin(), part.end(),
+                              [](char c) { return is_small(c) || is_digit(c) || c == '_' || c == '-'; });
+         });
+}
+
+/// Dot-separated identifiers behind the '-' or '+' of a semantic version.
+bool is_version_suffix(std::string_view suffix) {
+  const auto parts = split(suffix, '.');
+  return std::all_of(parts.begin(), parts.end(), [](std::string_view part) {
+    return !part.empty() && std::all_of(part.begin(), part.end(), [](char c) {
+      return is_small(c) || is_digit(c) || c == '-' || (c >= 'A' && c <= 'Z');
+    });
+  });
+}
+
+/// https://semver.org: MAJOR.MINOR.PATCH[-PRERELEASE][+BUILD]
+bool is_semver(std::string_view version) {
+  if (const std::size_t plus = version.find('+'); plus != std::string_view::npos) {
+    if (!is_version_suffix(version.substr(plus + 1))) return false;
+    version = version.substr(0, plus);
+  }
+  if (const std::size_t dash = version.find('-'); dash != std::string_view::npos) {
+    if (!is_version_suffix(version.substr(dash + 1))) return false;
+    version = version.substr(0, dash);
+  }
+  const auto numbers = split(version, '.');
+  return numbers.size() == 3 && std::all_of(numbers.begin(), numbers.end(), [](std::string_view n) {
+           return !n.empty() && std::all_of(n.begin(), n.end(), is_digit) && (n.size() == 1 || n[0] != '0');
+         });
+}
+
 void read_identity(const vitrine_plugin& entry, AdoptedPlugin& plugin) {
-  static const std::regex reverse_uri("[a-z0-9][a-z0-9_-]*(\\.[a-z0-9][a-z0-9_-]*)+");
-  static const std::regex semver(
-      "(0|[1-9][0-9]*)\\.(0|[1-9][0-9]*)\\.(0|[1-9][0-9]*)(-[0-9A-Za-z-]+(\\.[0-9A-Za-z-]+)*)?"
-      "(\\+[0-9A-Za-z-]+(\\.[0-9A-Za-z-]+)*)?");
   const std::string id = read_text(entry.id, 128, "the plugin's id");
-  if (!std::regex_match(id, reverse_uri))
+  if (!is_reverse_uri(id))
     throw Broken{"entry.id", "the plugin's id is " + quoted(id) + ", not a reverse URI such as \"org.example.poncho\""};
   plugin.identity.id = id;
   plugin.identity.version = read_text(entry.version, 64, "the plugin's version");
-  if (!std::regex_match(plugin.identity.version, semver))
+  if (!is_semver(plugin.identity.version))
     throw Broken{"entry.id",
                  "the plugin's version is " + quoted(plugin.identity.version) + ", not one such as \"1.0.0\""};
   plugin.identity.vendor = read_text(entry.vendor, 200, "the plugin's vendor");
@@ -182,35 +228,5 @@ Result<NecklineTemplate> adopt_neckline(const vitrine_neckline& table, const Plu
     return error_of(broken, identity.id, identity.file);
   }
 }
-
-namespace adoption {
-
-NecklineTemplate copy_neckline(const vitrine_neckline& table, const PluginIdentity& identity) {
-  NecklineTemplate copy;
-  copy.id = read_name(table.id, "a neckline's id");
-  const std::string where = "neckline " + quoted(copy.id);
-  copy.title = read_text(table.title, 200, where + ": title");
-  copy.plugin = identity.id;
-  copy.version = identity.version;
-  double deepest = 0;
-  for (const vitrine_profile_point& row : read_span(table.profile, 3, 256, where + ": profile")) {
-    const std::string at = where + ": profile point " + std::to_string(copy.profile.size());
-    const Vec2 point(read_number(row.s, 0, 1, at + ": s"), read_number(row.depth, 0, 1, at + ": depth"));
-    if (!copy.profile.empty() && !(point.x() > copy.profile.back().x()))
-      throw Broken{"neckline.profile", at + ": s does not ascend"};
-    deepest = std::max(deepest, point.y());
-    copy.profile.push_back(point);
-  }
-  if (copy.profile.front() != Vec2(0, 0) || copy.profile.back() != Vec2(1, 0))
-    throw Broken{"neckline.profile", where + ": the profile does not run from (0,0) to (1,0)"};
-  if (deepest < 1) throw Broken{"neckline.profile", where + ": the profile does not reach depth 1"};
-  copy.ratio_min = read_number(table.ratio_min, 0, 1e6, where + ": ratio_min");
-  copy.ratio_max = read_number(table.ratio_max, 0, 1e6, where + ": ratio_max");
-  if (!(copy.ratio_min < copy.ratio_max)) throw Broken{"number.range", where + ": ratio_min is not below ratio_max"};
-  copy.default_depth = read_number(table.default_depth, 0.01, 5, where + ": default_depth");
-  return copy;
-}
-
-}  // namespace adoption
 
 }  // namespace vitrine

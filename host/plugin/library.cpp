@@ -9,6 +9,7 @@
 #define BOOST_DLL_USE_STD_FS
 #include <boost/dll/shared_library.hpp>
 
+#include "elf.hpp"
 #include "library.hpp"
 #include "vitrine/abi.h"
 
@@ -38,6 +39,10 @@ std::string reason(const std::string& what) {
 }  // namespace
 
 Result<const void*> load_entry(const std::filesystem::path& absolute_file) {
+  constexpr const char* rebuild =
+      "Build it again for this machine with vitrine_add_plugin(), which also finds undefined symbols";
+  const std::string problem = elf_problem(absolute_file);
+  if (!problem.empty()) return refused("PLUGIN_FILE_LOAD", absolute_file, "cannot be loaded: " + problem, rebuild);
   try {
     // now: an undefined symbol has to fail here, not kill the process at a call. local: plugins must not see each
     // other. The overload that throws: the one with an error_code reports "Bad file descriptor" whatever the cause is.
@@ -52,8 +57,7 @@ Result<const void*> load_entry(const std::filesystem::path& absolute_file) {
                      "Build it with vitrine_add_plugin() and define the entry with VITRINE_PLUGIN");
     return entry;
   } catch (const std::exception& e) {
-    return refused("PLUGIN_FILE_LOAD", absolute_file, "cannot be loaded: " + reason(e.what()),
-                   "Rebuild it for this machine with vitrine_add_plugin(), which also finds undefined symbols");
+    return refused("PLUGIN_FILE_LOAD", absolute_file, "cannot be loaded: " + reason(e.what()), rebuild);
   }
 }
 

@@ -162,6 +162,25 @@ TEST_F(Registry, reports_what_is_no_library) {
   ASSERT_TRUE(registry.problem());
 }
 
+// A download that broke off: the dynamic linker would end the process with SIGBUS.
+TEST_F(Registry, survives_a_library_cut_off_anywhere) {
+  std::ifstream in(shipped / "vest.vitrine.so", std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  ASSERT_GT(whole.size(), 8192u);
+  int refused = 0;
+  for (std::size_t length = 0; length < whole.size(); length = length * 3 / 2 + 61) {
+    const fs::path file = folder / (std::to_string(length) + ".vitrine.so");
+    std::ofstream(file, std::ios::binary) << whole.substr(0, length);
+    ::chmod(file.c_str(), 0644);
+    const auto registry = load({file});
+    // What is left off at the very end (section names, debug information) is never mapped.
+    if (registry.rejected().empty()) continue;
+    EXPECT_EQ(code(registry), "PLUGIN_FILE_LOAD");
+    ++refused;
+  }
+  EXPECT_GE(refused, 8);
+}
+
 TEST_F(Registry, reports_a_library_without_the_entry_and_one_with_undefined_symbols) {
   EXPECT_EQ(code(load({broken / "no_entry.vitrine.so"})), "PLUGIN_FILE_ENTRY");
   const auto registry = load({broken / "unresolved.vitrine.so"});
