@@ -17,7 +17,7 @@ namespace {
 
 using namespace features_detail;
 
-constexpr double kMinScore = 0.30;    // below: another garment
+constexpr double kMinScore = 0.40;    // below: another garment
 constexpr double kHairShare = 0.002;  // threads thinner than twice this share of the diagonal are no outline
 
 std::string file_of(const Photo& photo) {
@@ -158,6 +158,18 @@ bool make_contour(const Outline& outline, std::vector<int> place, Features& feat
   return false;
 }
 
+/// Clips of a hanger bite notches into a waistband; a garment without sleeves and neckline has no narrow notch of its
+/// own.
+void close_notches(cv::Mat& mask) {
+  const cv::Rect box = cv::boundingRect(mask);
+  const int reach = std::max(1, static_cast<int>(0.028 * std::hypot(box.width, box.height)));
+  cv::Mat padded;
+  cv::copyMakeBorder(mask, padded, reach, reach, reach, reach, cv::BORDER_CONSTANT, 0);
+  cv::morphologyEx(padded, padded, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
+  mask = padded(cv::Rect(reach, reach, mask.cols, mask.rows)).clone();
+}
+
 struct Work {
   const Photo& photo;
   const GarmentTemplate& garment;
@@ -193,12 +205,13 @@ Outline settle_neckline(const Work& work, cv::Mat& panel, Outline outline, std::
     }
   }
   const std::vector<Vec2> edge = stretch(outline.chain, place[neck.from], place[neck.to]);
-  features.neckline.ratio = neck_ratio(panel, edge, features.tilt_deg, features.neckline.low);
+  features.neckline.ratio = neck_ratio(panel, edge, features.neckline.low);
   features.neckline.forced = forced != nullptr;
   if (forced)
     features.neckline.id = forced->id;
   else if (!work.necklines.empty())
-    features.neckline.id = work.necklines[choose_neckline(work.necklines, features.neckline.ratio)].id;
+    features.neckline.id =
+        work.necklines[choose_neckline(work.necklines, features.neckline.ratio, tip_sharpness(edge))].id;
   return outline;
 }
 
@@ -217,6 +230,7 @@ Result<Features> find(const Photo& photo, const Silhouette& silhouette, const Ga
   if (cv::countNonZero(mask) < 400) return no_outline;
   const SleeveCuts cuts = open_sleeve_gaps(mask, garment, options);
   mask = cuts.mask;
+  if (garment.limbs.empty() && garment.neck_edge() < 0) close_notches(mask);
   Outline outline = trace_outline(mask, options);
   if (outline.chain.empty()) return no_outline;
 
@@ -224,7 +238,7 @@ Result<Features> find(const Photo& photo, const Silhouette& silhouette, const Ga
   if (match.pose < 0 || match.features.empty())
     return not_this_garment(photo, garment, "no way to lay it out matches the outline");
   double score = match.score;
-  if (garment.limbs.empty()) score *= std::exp(-40 * cuts.gap_share);
+  if (garment.limbs.empty()) score *= std::exp(-120 * cuts.gap_share);
   if (score < kMinScore)
     return not_this_garment(photo, garment, match.why + " (score " + std::to_string(score).substr(0, 4) + ")");
   features.pose = garment.poses[match.pose].name;

@@ -137,8 +137,18 @@ std::vector<Vec2> refitted(const std::vector<Vec2>& targets, const std::vector<V
   return result;
 }
 
-/// Polygon through the features; where the outline is a neckline it follows the outline, for a plugin shapes that edge.
-std::vector<cv::Point> explained(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& order,
+/// Edges whose course the features do not settle: a plugin shapes the neckline, and a sleeve may bend.
+bool follows_outline(const GarmentTemplate& garment, const TemplateEdge& edge) {
+  if (edge.kind == EdgeKind::neck) return true;
+  const auto joins = [&](int a, int b) { return (edge.from == a && edge.to == b) || (edge.from == b && edge.to == a); };
+  return std::any_of(garment.limbs.begin(), garment.limbs.end(), [&](const TemplateLimb& limb) {
+    return joins(limb.root_a, limb.tip_a) || joins(limb.root_b, limb.tip_b) || joins(limb.root_a, limb.tip_b) ||
+           joins(limb.root_b, limb.tip_a);
+  });
+}
+
+/// Polygon through the features, along the outline where only that can tell the course.
+std::vector<cv::Point> explained(const Outline& outline, const GarmentTemplate& garment,
                                  const std::vector<int>& sample_of, double scale) {
   std::vector<cv::Point> polygon;
   const int n = static_cast<int>(outline.samples.size());
@@ -146,11 +156,10 @@ std::vector<cv::Point> explained(const Outline& outline, const GarmentTemplate& 
     const Vec2 p = outline.samples[s].at * scale;
     polygon.emplace_back(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
   };
-  const int neck = garment.neck_edge();
-  for (const int f : order) {
-    add(sample_of[f]);
-    if (neck < 0 || garment.edges[neck].from != f) continue;
-    for (int s = sample_of[f]; s != sample_of[garment.edges[neck].to]; s = (s + 1) % n) add(s);
+  for (const TemplateEdge& edge : garment.edges) {
+    add(sample_of[edge.from]);
+    if (!follows_outline(garment, edge)) continue;
+    for (int s = sample_of[edge.from]; s != sample_of[edge.to]; s = (s + 1) % n) add(s);
   }
   return polygon;
 }
@@ -163,26 +172,62 @@ double overlap(const std::vector<cv::Point>& polygon, const cv::Mat& small_mask)
   return any > 0 ? static_cast<double>(both) / any : 0;
 }
 
-/// Strong corners of the outline that no feature explains speak against the garment; the neckline has its own.
+/// Strong corners of the outline that no feature explains speak against the garment.
 double unexplained(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& sample_of) {
   const int n = static_cast<int>(outline.samples.size());
-  const int neck = garment.neck_edge();
-  const auto on_neck = [&](int s) {
-    if (neck < 0) return false;
-    const int from = sample_of[garment.edges[neck].from];
-    const int to = sample_of[garment.edges[neck].to];
-    return (s - from + n) % n <= (to - from + n) % n;
-  };
   double sum = 0;
-  for (int s = 0; s < n; ++s) {
-    const Sample& sample = outline.samples[s];
-    if (sample.candidate < 0 || std::abs(sample.coarse_deg) < 40 || on_neck(s)) continue;
-    double nearest = kFar;
-    for (const int f : sample_of) nearest = std::min(nearest, (outline.samples[f].at - sample.at).norm());
-    const double gap = nearest / outline.diagonal;
-    if (gap > 0.06) sum += std::min(1.0, std::abs(sample.coarse_deg) / 90) * std::min(1.0, (gap - 0.06) / 0.06);
+  for (const TemplateEdge& edge : garment.edges) {
+    if (follows_outline(garment, edge)) continue;
+    // A seam is smooth; a hem may have frills and folds.
+    const double gate = edge.kind == EdgeKind::seam ? 25 : 40;
+    for (int s = sample_of[edge.from]; s != sample_of[edge.to]; s = (s + 1) % n) {
+      const Sample& sample = outline.samples[s];
+      if (sample.candidate < 0 || std::abs(sample.coarse_deg) < gate) continue;
+      double nearest = kFar;
+      for (const int f : sample_of) nearest = std::min(nearest, (outline.samples[f].at - sample.at).norm());
+      const double gap = nearest / outline.diagonal;
+      if (gap > 0.06)
+        sum += (edge.kind == EdgeKind::seam ? 1.6 : 0.6) * std::min(1.0, std::abs(sample.coarse_deg) / 90) *
+               std::min(1.0, (gap - 0.06) / 0.06);
+    }
   }
   return sum;
+}
+
+/// A feature that need not be a corner (a shoulder over a sleeve) goes where its neighbours in the template say: the
+/// pose's offset from the snapped features around it, the near ones weighing most.
+void place_soft(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& order,
+                const std::vector<Vec2>& targets, std::vector<std::vector<State>>& states, std::vector<int>& chosen) {
+  const int count = static_cast<int>(order.size());
+  const int n = static_cast<int>(outline.samples.size());
+  for (int i = 0; i < count; ++i) {
+    if (garment.features[order[i]].turn != Turn::any) continue;
+    Vec2 sum = Vec2::Zero();
+    double total = 0;
+    for (int k = 0; k < count; ++k) {
+      const State& other = states[k][chosen[k]];
+      if (k == i || !other.snapped || garment.features[order[k]].turn == Turn::any) continue;
+      const double near = (targets[k] - targets[i]).squaredNorm() / (outline.diagonal * outline.diagonal);
+      const double weight = 1 / (near * near + 1e-4);
+      sum += weight * (outline.samples[other.sample].at - targets[k]);
+      total += weight;
+    }
+    if (total <= 0) continue;
+    const Vec2 wanted = targets[i] + sum / total;
+    const int before = states[(i + count - 1) % count][chosen[(i + count - 1) % count]].sample;
+    const int after = states[(i + 1) % count][chosen[(i + 1) % count]].sample;
+    State best = states[i][chosen[i]];
+    double nearest = kFar;
+    for (int s = (before + 3) % n; s != after; s = (s + 1) % n) {
+      const Sample& sample = outline.samples[s];
+      const double snap = sample.candidate >= 0 ? 0.7 : 1.0;  // a bend close by is the better guess
+      const double distance = snap * (sample.at - wanted).norm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      best = {s, 0, sample.candidate >= 0};
+    }
+    states[i][chosen[i]] = best;
+  }
 }
 
 struct Frame {
@@ -223,6 +268,7 @@ Match try_pose(const Outline& outline, const cv::Mat& small_mask, double scale, 
     }
     targets = refitted(targets, found, weight, outline.diagonal);
   }
+  place_soft(outline, garment, order, targets, states, chosen);
   match.features.resize(count);
   std::vector<int> sample_of(count);
   double certainty = 0, worst = 1;
@@ -242,15 +288,23 @@ Match try_pose(const Outline& outline, const cv::Mat& small_mask, double scale, 
       worst = std::min(worst, placed.confidence);
     }
   }
+  // A corner may be hidden on one side; when it is missing on both, the garment has no such corner.
+  double weakest = 1;
+  for (int f = 0; f < count; ++f) {
+    const int partner = garment.features[f].mirror;
+    if (garment.features[f].turn == Turn::any || partner < 0) continue;
+    weakest = std::min(weakest, std::max(match.features[f].confidence, match.features[partner].confidence));
+  }
   int turning = 0;
   for (const TemplateFeature& f : garment.features) turning += f.turn != Turn::any;
   certainty = turning > 0 ? certainty / turning : 0.7;
-  const double cover = overlap(explained(outline, garment, order, sample_of, scale), small_mask);
+  const double cover = overlap(explained(outline, garment, sample_of, scale), small_mask);
   const double stray = unexplained(outline, garment, sample_of);
   match.cost = total / count + 4 * (1 - cover) + 0.25 * stray + 0.15 * std::pow(frame.tilt_deg / 20, 2);
-  const double cover_score = std::clamp((cover - 0.6) / 0.3, 0.0, 1.0);
-  const double stray_score = std::exp(-0.35 * stray);
-  const double corner_score = std::clamp(certainty / 0.75, 0.0, 1.0);
+  const double cover_score = std::clamp((cover - 0.55) / 0.2, 0.0, 1.0);
+  const double stray_score = std::exp(-0.9 * stray);
+  const double corner_score =
+      std::clamp((certainty - 0.6) / 0.15, 0.0, 1.0) * std::clamp((weakest - 0.1) / 0.25, 0.0, 1.0);
   match.score = cover_score * stray_score * corner_score;
   match.why = cover_score <= stray_score && cover_score <= corner_score ? "its outline covers other areas"
               : stray_score <= corner_score ? "its outline has corners that this garment lacks"

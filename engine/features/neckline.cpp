@@ -14,8 +14,11 @@ namespace {
 constexpr int kUnit = 160;
 constexpr double kMarginU = 0.1, kMarginV = 0.25, kReachV = 1.75;
 constexpr int kCurve = 64;  // samples along a curve
-constexpr double kMinEvidence = 0.30;
-constexpr double kBelowTop = 0.10;  // a front neckline lies at least this far below the back's
+// A silhouette whose top edge is already as deep as a front neckline shows no inside, or a sliver: then only a very
+// clear line is believed.
+constexpr double kDeepTop = 0.4;
+constexpr double kMinEvidence = 0.48, kMinEvidenceDeep = 0.6;
+constexpr double kBelowTop = 0.12;  // a front neckline lies at least this far below the back's
 
 struct NeckFrame {
   Vec2 origin, along, down;  // px, px per unit
@@ -36,7 +39,7 @@ cv::Point2d cell(const Vec2& uv) {
 }
 
 /// Gradient of the garment in the neck frame.
-Field gradient_field(const Image& rgb, const cv::Mat& mask, const NeckFrame& frame) {
+Field gradient_field(const Image& rgb, const cv::Mat& mask, const NeckFrame& frame, bool coarse) {
   const cv::Size size(static_cast<int>((1 + 2 * kMarginU) * kUnit), static_cast<int>((kMarginV + kReachV) * kUnit));
   // The picture is smoothed to the frame's resolution first, so that a large photo does not alias.
   const double shrink = frame.along.norm() / kUnit;
@@ -55,6 +58,7 @@ Field gradient_field(const Image& rgb, const cv::Mat& mask, const NeckFrame& fra
   cv::GaussianBlur(lab, lab, {}, 1.5);
   cv::Mat core;
   cv::erode(inside, core, cv::getStructuringElement(cv::MORPH_ELLIPSE, {9, 9}), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  if (coarse) cv::GaussianBlur(lab, lab, {}, 4);
   std::vector<cv::Mat> channels;
   cv::split(lab, channels);
   Field field;
@@ -228,18 +232,24 @@ NeckPath find_front_neckline(const Image& rgb, const cv::Mat& mask, const std::v
   frame.down = Vec2(-frame.along.y(), frame.along.x());
   double top_depth = 0;
   for (const Vec2& p : top) top_depth = std::max(top_depth, frame.uv(p).y());
-  const Field field = gradient_field(rgb, mask, frame);
+  const Field fine = gradient_field(rgb, mask, frame, false);
+  // Stripes and ribs are edges everywhere; their mean tells the trim of the neckline from the cloth.
+  const Field coarse = gradient_field(rgb, mask, frame, true);
+  const Field* best_field = &fine;
   Curve best;
   const auto consider = [&](std::vector<Vec2> line, double prior) {
     Curve curve = with_normals(resampled(line, kCurve));
-    const double evidence = evidence_of(field, curve);
-    if (evidence * prior <= result.evidence) return;
-    result.evidence = evidence * prior;
+    const double sharp = prior * evidence_of(fine, curve), broad = 0.97 * prior * evidence_of(coarse, curve);
+    if (std::max(sharp, broad) <= result.evidence) return;
+    result.evidence = std::max(sharp, broad);
+    best_field = sharp >= broad ? &fine : &coarse;
     best = std::move(curve);
   };
   for (double depth = top_depth + kBelowTop; depth < 1.5; depth += 0.02) {
-    // Most necklines are between a third as deep and as deep as wide.
-    const double prior = depth < 0.25 ? 0.85 : depth > 1.2 ? 0.9 : 1.0;
+    const double below = depth - top_depth;
+    // The lower edge of the back's own collar band (2-3 cm on a neck of 20) is no front neckline.
+    const double prior = (depth > 1.2 ? 0.95 : 1.0) * (0.8 + 0.15 * std::clamp((below - 0.13) / 0.09, 0.0, 1.0) +
+                                                       0.05 * std::clamp((below - 0.2) / 0.15, 0.0, 1.0));
     for (const double skew : {-0.08, -0.04, 0.0, 0.04, 0.08}) {
       if (shape) {
         consider(profile_line(*shape, depth, skew), prior);
@@ -250,16 +260,15 @@ NeckPath find_front_neckline(const Image& rgb, const cv::Mat& mask, const std::v
           if (std::abs(a - b) < 1.1) consider(family(a, b, depth, skew), prior * (a * b > 6.5 ? 0.95 : 1.0));
     }
   }
-  if (result.evidence < kMinEvidence) return result;
+  if (result.evidence < (top_depth < kDeepTop ? kMinEvidence : kMinEvidenceDeep)) return result;
   result.found = true;
-  for (const Vec2& uv : snapped(field, best)) result.path.push_back(frame.pixel(uv));
+  for (const Vec2& uv : snapped(*best_field, best)) result.path.push_back(frame.pixel(uv));
   return result;
 }
 
-double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, double tilt_deg, Vec2& low) {
+double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, Vec2& low) {
   if (neck_edge.size() < 2) return 0;
-  const double a = tilt_deg * std::numbers::pi / 180;
-  const Vec2 along(std::cos(a), std::sin(a)), down(-std::sin(a), std::cos(a));
+  const Vec2 along = (neck_edge.back() - neck_edge.front()).normalized(), down(-along.y(), along.x());
   const auto frame = [&](const Vec2& p) { return Vec2(p.dot(along), p.dot(down)); };
   Vec2 from = frame(neck_edge.front()), to = frame(neck_edge.back());
   low = neck_edge.front();
@@ -278,7 +287,42 @@ double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, doub
   return background > 0 ? static_cast<double>(foreground) / static_cast<double>(background) : 0;
 }
 
-int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio) {
+double tip_sharpness(const std::vector<Vec2>& edge) {
+  if (edge.size() < 3) return 0;
+  const Vec2 along = edge.back() - edge.front();
+  const double width = along.norm();
+  if (width <= 0) return 0;
+  const Vec2 x = along / width, y(-x.y(), x.x());
+  std::vector<Vec2> line;
+  double depth = 0;
+  std::size_t tip = 0;
+  for (const Vec2& p : edge) {
+    line.emplace_back((p - edge.front()).dot(x) / width, (p - edge.front()).dot(y) / width);
+    if (line.back().y() > depth) {
+      depth = line.back().y();
+      tip = line.size() - 1;
+    }
+  }
+  if (depth <= 0 || tip == 0 || tip + 1 == line.size()) return 0;
+  // How much of the rise to both sides happens close to the tip, in units of a straight rise (a V).
+  constexpr double kReach = 0.15;
+  const auto rise = [&](int step) {
+    std::size_t i = tip;
+    while (i > 0 && i + 1 < line.size() && (line[i].x() - line[tip].x()) * step < kReach) i += step;
+    const Vec2 &out = line[i], &in = line[i - step];
+    const double across = (out.x() - in.x()) * step;
+    const double t = across > 0 ? std::clamp((kReach - (in.x() - line[tip].x()) * step) / across, 0.0, 1.0) : 1.0;
+    const Vec2 at = in + t * (out - in);
+    const double run = std::abs(at.x() - line[tip].x());
+    const double whole = step < 0 ? line[tip].x() : 1 - line[tip].x();
+    return run > 0 && whole > 0 ? (depth - at.y()) / run / (depth / whole) : 0.0;
+  };
+  return 0.5 * (rise(-1) + rise(1));
+}
+
+int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness) {
+  // Curved sides pull a V's ratio down and wrinkles push a U's up: near a border of two ranges the tip decides.
+  constexpr double kUnsure = 1.5;
   int best = 0;
   double nearest = 1e30;
   for (int i = 0; i < static_cast<int>(necklines.size()); ++i) {
@@ -291,7 +335,22 @@ int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio) {
       best = i;
     }
   }
-  return best;
+  int choice = best;
+  // Sharpness is a ratio of slopes, so that it is compared as one; a square tip (0) counts as nearly flat.
+  const auto miss_of = [&](const NecklineTemplate& n) {
+    return std::abs(std::log(std::max(0.06, tip_sharpness(n.profile)) / std::max(0.06, sharpness)));
+  };
+  double closest = miss_of(necklines[best]);
+  for (int i = 0; i < static_cast<int>(necklines.size()); ++i) {
+    const NecklineTemplate& n = necklines[i];
+    if (ratio * kUnsure < n.ratio_min || ratio > n.ratio_max * kUnsure) continue;
+    const double miss = miss_of(n);
+    if (miss < closest) {
+      closest = miss;
+      choice = i;
+    }
+  }
+  return choice;
 }
 
 }  // namespace vitrine::features_detail

@@ -19,11 +19,16 @@ struct NeckPath {
 NeckPath find_front_neckline(const Image& rgb, const cv::Mat& mask, const std::vector<Vec2>& top,
                              const NecklineTemplate* shape);
 
-/// Paper Fig. 2: the rectangle spanned by both neck points and the lowest point between them, in the upright frame of
-/// the garment; foreground / background pixels in it. `low` is that lowest point.
-double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, double tilt_deg, Vec2& low);
+/// Paper Fig. 2: the rectangle spanned by both neck points and the lowest point between them, turned with the line of
+/// the neck points; foreground / background pixels in it. `low` is that lowest point.
+double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, Vec2& low);
 
-/// Neckline whose ratio range holds `ratio`, else the one with the nearest range. `necklines` is not empty.
-int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio);
+/// How pointed a neckline is at its lowest point: its slope there over its mean slope. 1 for a V, under a half for a
+/// half ellipse, 0 for a square neck. `edge` runs from neck point to neck point.
+double tip_sharpness(const std::vector<Vec2>& edge);
+
+/// Neckline whose ratio range holds `ratio`, else the one with the nearest range; close to the border of two ranges the
+/// one whose profile is as pointed as the photo's neckline. `necklines` is not empty.
+int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness);
 
 }  // namespace vitrine::features_detail

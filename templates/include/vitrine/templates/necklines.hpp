@@ -28,8 +28,8 @@ inline constexpr std::array<vitrine_profile_point, 3> v_profile = {{{0.0, 0.0}, 
 inline constexpr std::array<vitrine_profile_point, 4> square_profile = {
     {{0.0, 0.0}, {0.04, 1.0}, {0.96, 1.0}, {1.0, 0.0}}};
 
-inline constexpr vitrine_neckline neck_u = {"neck_u", "U-neck", sdk::span(u_profile), 0.12, 0.62, 0.60};
-inline constexpr vitrine_neckline neck_v = {"neck_v", "V-neck", sdk::span(v_profile), 0.62, 100.0, 0.75};
+inline constexpr vitrine_neckline neck_u = {"neck_u", "U-neck", sdk::span(u_profile), 0.12, 0.50, 0.60};
+inline constexpr vitrine_neckline neck_v = {"neck_v", "V-neck", sdk::span(v_profile), 0.50, 100.0, 0.75};
 inline constexpr vitrine_neckline neck_square = {"neck_square", "Square neck", sdk::span(square_profile),
                                                  0.0,           0.12,          0.50};
 

@@ -17,18 +17,24 @@ inline constexpr std::array<vitrine_feature, 4> skirt_features = {{
 
 // Left halves, as means over flat-lay photos; the right half is the mirror image.
 inline constexpr vitrine_pose_point skirt_straight_half[] = {
-    {"waist_left", 0.105, 0.020, 0.12},
-    {"hem_left", 0.020, 0.955, 0.12},
+    {"waist_left", 0.140, 0.020, 0.12},
+    {"hem_left", 0.010, 0.950, 0.12},
 };
 inline constexpr auto skirt_straight = sdk::symmetric_pose(skirt_features, skirt_straight_half);
 inline constexpr vitrine_pose_point skirt_flared_half[] = {
     {"waist_left", 0.330, 0.010, 0.12},
-    {"hem_left", 0.005, 0.840, 0.14},
+    {"hem_left", 0.003, 0.850, 0.14},
 };
 inline constexpr auto skirt_flared = sdk::symmetric_pose(skirt_features, skirt_flared_half);
-inline constexpr std::array<vitrine_pose, 2> skirt_poses = {{
+inline constexpr vitrine_pose_point skirt_pencil_half[] = {
+    {"waist_left", 0.015, 0.025, 0.10},
+    {"hem_left", 0.060, 0.975, 0.12},
+};
+inline constexpr auto skirt_pencil = sdk::symmetric_pose(skirt_features, skirt_pencil_half);
+inline constexpr std::array<vitrine_pose, 3> skirt_poses = {{
     {"straight", sdk::span(skirt_straight)},
     {"flared", sdk::span(skirt_flared)},
+    {"pencil", sdk::span(skirt_pencil)},
 }};
 
 inline constexpr std::array<vitrine_edge, 4> skirt_edges = {{

@@ -39,25 +39,47 @@ inline constexpr std::array<vitrine_limb, 2> sleeve_limbs = {{
 
 // --- The long-sleeved top.
 
-inline constexpr auto long_sleeve_features = sdk::join(torso_neck, torso_shoulder_right(VITRINE_TURN_ANY), sleeve_right,
-                                                       torso_body, sleeve_left, torso_shoulder_left(VITRINE_TURN_ANY));
+inline constexpr auto long_sleeve_features =
+    sdk::join(torso_neck, torso_shoulder_right(VITRINE_TURN_ANY), sleeve_right, torso_body(VITRINE_TURN_CONCAVE),
+              sleeve_left, torso_shoulder_left(VITRINE_TURN_ANY));
 
 // Left halves, as means over flat-lay photos; the right half is the mirror image.
 inline constexpr vitrine_pose_point sleeves_down_half[] = {
-    {"neck_left", 0.400, 0.005, 0.08},       {"shoulder_left", 0.220, 0.070, 0.10},
-    {"armpit_left", 0.195, 0.400, 0.12},     {"cuff_lower_left", 0.250, 0.890, 0.12},
-    {"cuff_upper_left", 0.130, 0.920, 0.12}, {"hem_left", 0.200, 0.985, 0.12},
+    {"neck_left", 0.405, 0.005, 0.08},       {"shoulder_left", 0.225, 0.070, 0.08},
+    {"armpit_left", 0.195, 0.400, 0.12},     {"cuff_lower_left", 0.250, 0.895, 0.12},
+    {"cuff_upper_left", 0.125, 0.925, 0.12}, {"hem_left", 0.200, 0.985, 0.12},
 };
 inline constexpr auto sleeves_down = sdk::symmetric_pose(long_sleeve_features, sleeves_down_half);
 inline constexpr vitrine_pose_point sleeves_spread_half[] = {
-    {"neck_left", 0.385, 0.010, 0.08},       {"shoulder_left", 0.260, 0.075, 0.10},
-    {"armpit_left", 0.230, 0.355, 0.12},     {"cuff_lower_left", 0.145, 0.885, 0.16},
-    {"cuff_upper_left", 0.035, 0.890, 0.16}, {"hem_left", 0.220, 0.970, 0.12},
+    {"neck_left", 0.380, 0.010, 0.08},       {"shoulder_left", 0.250, 0.075, 0.08},
+    {"armpit_left", 0.210, 0.355, 0.12},     {"cuff_lower_left", 0.140, 0.885, 0.16},
+    {"cuff_upper_left", 0.040, 0.900, 0.16}, {"hem_left", 0.215, 0.970, 0.12},
 };
 inline constexpr auto sleeves_spread = sdk::symmetric_pose(long_sleeve_features, sleeves_spread_half);
-inline constexpr std::array<vitrine_pose, 2> long_sleeve_poses = {{
+inline constexpr vitrine_pose_point sleeves_wide_half[] = {
+    {"neck_left", 0.430, 0.010, 0.08},       {"shoulder_left", 0.345, 0.080, 0.08},
+    {"armpit_left", 0.330, 0.380, 0.14},     {"cuff_lower_left", 0.045, 0.640, 0.16},
+    {"cuff_upper_left", 0.005, 0.520, 0.16}, {"hem_left", 0.330, 0.980, 0.14},
+};
+inline constexpr auto sleeves_wide = sdk::symmetric_pose(long_sleeve_features, sleeves_wide_half);
+inline constexpr vitrine_pose_point sleeves_hanging_half[] = {
+    {"neck_left", 0.260, 0.005, 0.10},       {"shoulder_left", 0.100, 0.070, 0.08},
+    {"armpit_left", 0.150, 0.440, 0.14},     {"cuff_lower_left", 0.135, 0.975, 0.14},
+    {"cuff_upper_left", 0.020, 0.950, 0.14}, {"hem_left", 0.215, 0.760, 0.14},
+};
+inline constexpr auto sleeves_hanging = sdk::symmetric_pose(long_sleeve_features, sleeves_hanging_half);
+inline constexpr vitrine_pose_point sleeves_short_half[] = {
+    {"neck_left", 0.365, 0.003, 0.08},       {"shoulder_left", 0.195, 0.078, 0.08},
+    {"armpit_left", 0.165, 0.380, 0.12},     {"cuff_lower_left", 0.105, 0.400, 0.12},
+    {"cuff_upper_left", 0.005, 0.230, 0.12}, {"hem_left", 0.160, 0.985, 0.12},
+};
+inline constexpr auto sleeves_short = sdk::symmetric_pose(long_sleeve_features, sleeves_short_half);
+inline constexpr std::array<vitrine_pose, 5> long_sleeve_poses = {{
     {"sleeves_down", sdk::span(sleeves_down)},
     {"sleeves_spread", sdk::span(sleeves_spread)},
+    {"sleeves_wide", sdk::span(sleeves_wide)},
+    {"sleeves_hanging", sdk::span(sleeves_hanging)},
+    {"sleeves_short", sdk::span(sleeves_short)},
 }};
 
 inline constexpr auto long_sleeve_edges =

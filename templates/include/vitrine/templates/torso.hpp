@@ -18,12 +18,15 @@ inline constexpr std::array<vitrine_feature, 2> torso_neck = {{
 consteval std::array<vitrine_feature, 1> torso_shoulder_right(std::int32_t turn) {
   return {{{"shoulder_right", "shoulder_right", "shoulder_left", turn, 0}}};
 }
-inline constexpr std::array<vitrine_feature, 4> torso_body = {{
-    {"armpit_right", "armpit_right", "armpit_left", VITRINE_TURN_CONCAVE, 0},
-    {"hem_right", "hip_right", "hem_left", VITRINE_TURN_CONVEX, 0},
-    {"hem_left", "hip_left", "hem_right", VITRINE_TURN_CONVEX, 0},
-    {"armpit_left", "armpit_left", "armpit_right", VITRINE_TURN_CONCAVE, 0},
-}};
+/// Armhole and side seam meet in a corner that points outwards (vest); under a sleeve the outline turns inwards.
+consteval std::array<vitrine_feature, 4> torso_body(std::int32_t armpit_turn) {
+  return {{
+      {"armpit_right", "armpit_right", "armpit_left", armpit_turn, 0},
+      {"hem_right", "hip_right", "hem_left", VITRINE_TURN_CONVEX, 0},
+      {"hem_left", "hip_left", "hem_right", VITRINE_TURN_CONVEX, 0},
+      {"armpit_left", "armpit_left", "armpit_right", armpit_turn, 0},
+  }};
+}
 consteval std::array<vitrine_feature, 1> torso_shoulder_left(std::int32_t turn) {
   return {{{"shoulder_left", "shoulder_left", "shoulder_right", turn, 0}}};
 }
@@ -60,27 +63,36 @@ consteval vitrine_scale_rule torso_scale(double ease) {
 
 // --- The vest: the torso with its armholes left open.
 
-inline constexpr auto vest_features = sdk::join(torso_neck, torso_shoulder_right(VITRINE_TURN_CONVEX), torso_body,
-                                                torso_shoulder_left(VITRINE_TURN_CONVEX));
+inline constexpr auto vest_features =
+    sdk::join(torso_neck, torso_shoulder_right(VITRINE_TURN_CONVEX), torso_body(VITRINE_TURN_CONVEX),
+              torso_shoulder_left(VITRINE_TURN_CONVEX));
 
 // Left halves, as means over flat-lay photos of vests; the right half is the mirror image.
 inline constexpr vitrine_pose_point vest_wide_straps_half[] = {
-    {"neck_left", 0.305, 0.005, 0.10},
-    {"shoulder_left", 0.160, 0.035, 0.10},
-    {"armpit_left", 0.040, 0.350, 0.12},
-    {"hem_left", 0.015, 0.980, 0.12},
+    {"neck_left", 0.300, 0.005, 0.10},
+    {"shoulder_left", 0.155, 0.030, 0.10},
+    {"armpit_left", 0.030, 0.335, 0.12},
+    {"hem_left", 0.010, 0.980, 0.12},
 };
 inline constexpr auto vest_wide_straps = sdk::symmetric_pose(vest_features, vest_wide_straps_half);
 inline constexpr vitrine_pose_point vest_narrow_straps_half[] = {
-    {"neck_left", 0.145, 0.015, 0.12},
-    {"shoulder_left", 0.060, 0.045, 0.12},
-    {"armpit_left", 0.035, 0.370, 0.14},
-    {"hem_left", 0.055, 0.960, 0.14},
+    {"neck_left", 0.160, 0.020, 0.12},
+    {"shoulder_left", 0.070, 0.040, 0.12},
+    {"armpit_left", 0.020, 0.340, 0.14},
+    {"hem_left", 0.025, 0.970, 0.14},
 };
 inline constexpr auto vest_narrow_straps = sdk::symmetric_pose(vest_features, vest_narrow_straps_half);
-inline constexpr std::array<vitrine_pose, 2> vest_poses = {{
+inline constexpr vitrine_pose_point vest_cropped_half[] = {
+    {"neck_left", 0.320, 0.005, 0.10},
+    {"shoulder_left", 0.160, 0.050, 0.10},
+    {"armpit_left", 0.030, 0.520, 0.12},
+    {"hem_left", 0.020, 0.975, 0.12},
+};
+inline constexpr auto vest_cropped = sdk::symmetric_pose(vest_features, vest_cropped_half);
+inline constexpr std::array<vitrine_pose, 3> vest_poses = {{
     {"wide_straps", sdk::span(vest_wide_straps)},
     {"narrow_straps", sdk::span(vest_narrow_straps)},
+    {"cropped", sdk::span(vest_cropped)},
 }};
 
 inline constexpr auto vest_edges =
