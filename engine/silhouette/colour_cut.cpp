@@ -19,11 +19,12 @@ constexpr int ground_parts = 10;
 constexpr int garment_parts = 6;
 constexpr std::size_t max_samples = 6000;
 constexpr int rounds = 5;
-constexpr double unary_clip = 12;       ///< [nat] no single pixel outvotes its neighbourhood
-constexpr double smoothness = 14;       ///< [nat] cost of a boundary link without contrast
-constexpr double darkest_shade = 0.63;  ///< cube root of the least light that is left in a cast shadow
-constexpr double shade_penalty = 3.0;   ///< [nat] shade is rarer than lit ground
-constexpr double place_scale = 30;      ///< picture side in the unit of Lab, for colour-and-place samples
+constexpr double unary_clip = 12;           ///< [nat] no single pixel outvotes its neighbourhood
+constexpr double smoothness = 14;           ///< [nat] cost of a boundary link without contrast
+constexpr double darkest_shade = 0.58;      ///< cube root of the least light that is left in a cast shadow
+constexpr double shade_penalty = 2.0;       ///< [nat] shade is rarer than lit ground
+constexpr double shade_depth_penalty = 12;  ///< [nat] per unit of 1 - t: deep shade is rarer than a soft one
+constexpr double place_scale = 30;          ///< picture side in the unit of Lab, for colour-and-place samples
 
 Vec3d colour_at(const cv::Mat& lab, int y, int x) {
   const cv::Vec3f c = lab.at<cv::Vec3f>(y, x);
@@ -122,7 +123,8 @@ class Ground {
       const Vec3d weighted = p.shade_inverse * lit;
       const double t = std::clamp(weighted.dot(colour) / weighted.dot(lit), darkest_shade, 0.97);
       const Vec3d e = colour - t * lit;
-      terms[used++] = places[k] + p.shade_log_norm - shade_penalty - 0.5 * e.dot(p.shade_inverse * e);
+      terms[used++] = places[k] + p.shade_log_norm - shade_penalty - shade_depth_penalty * (1 - t) -
+                      0.5 * e.dot(p.shade_inverse * e);
     }
     for (std::size_t k = 0; k < used; ++k) best = std::max(best, terms[k]);
     double sum = 0, place_sum = 0;
