@@ -240,8 +240,7 @@ class Tailor {
       const std::string found = text("%.0f places of front and back touch", self.close) +
                                 text(" and %.0f have crossed, by up to %.1f mm", self.crossed, 1000 * self.depth);
       skipped.push_back("self-contact: the body parts front and back almost everywhere, but " + found);
-      if (!out_.detail.empty()) out_.detail += " ";
-      out_.detail += "Self-contact is not modelled: " + found + ".";
+      if (out_.status != "OK") out_.detail += " Self-contact is not modelled: " + found + ".";
     }
   }
 

@@ -10,6 +10,7 @@
 #include "prolong.hpp"
 #include "relax.hpp"
 #include "scene.hpp"
+#include "smooth_field.hpp"
 
 namespace vitrine {
 namespace {
@@ -236,6 +237,29 @@ TEST(Friction, cloth_sticks_to_a_slope_just_below_the_friction_angle_and_slides_
   EXPECT_TRUE(rests);
   EXPECT_GT(slide(angle, 0.95 * std::tan(angle), rests), 0.05);
   EXPECT_FALSE(rests);
+}
+
+TEST(SmoothField, is_exact_for_planes_and_its_gradient_is_its_slope) {
+  const DistanceField plane =
+      scene::make_field({0, 0, 0}, {1, 1, 1}, 0.1, [](const Vec3& p) { return 0.6 * p.x() - 0.8 * p.y() + 0.1; });
+  const DistanceField ball =
+      scene::make_field({-1, -1, -1}, {1, 1, 1}, 0.1, [](const Vec3& p) { return p.norm() - 0.5; });
+  std::mt19937 random(3);
+  auto unit = [&] { return static_cast<double>(random() >> 8) / (1 << 24); };
+  for (int i = 0; i < 200; ++i) {
+    Vec3 p(unit(), unit(), unit()), gradient, ignored;
+    EXPECT_NEAR(smooth_distance(plane, p, gradient), 0.6 * p.x() - 0.8 * p.y() + 0.1, 1e-6);
+    if ((p.array() > 0.05 && p.array() < 0.85).all()) {
+      EXPECT_LT((gradient - Vec3(0.6, -0.8, 0)).norm(), 1e-5);
+    }
+    p = 1.6 * p - Vec3(0.8, 0.8, 0.8);
+    smooth_distance(ball, p, gradient);
+    for (int a = 0; a < 3; ++a) {
+      const Vec3 h = 1e-5 * Vec3::Unit(a);
+      EXPECT_NEAR(gradient[a], (smooth_distance(ball, p + h, ignored) - smooth_distance(ball, p - h, ignored)) / 2e-5,
+                  1e-4);
+    }
+  }
 }
 
 TEST(Prolongation, a_linear_shape_is_kept_and_continued_past_the_border) {

@@ -87,6 +87,13 @@ TEST(Drape, nodes_stay_above_nine_tenths_of_the_skin_offset) {
   EXPECT_GE(least, 0.9 * 0.004);
 }
 
+TEST(Drape, a_vest_comes_to_rest_without_friction) {
+  SewingOptions o;
+  o.friction = false;
+  const Drape d = dress(scene::vest(), {0.05, 0.03}, o);
+  EXPECT_EQ(d.status, "OK") << d.detail;
+}
+
 TEST(Drape, same_input_same_bytes) {
   const Drape a = dress(scene::long_sleeve(), {0.06, 0.04}), b = dress(scene::long_sleeve(), {0.06, 0.04});
   EXPECT_TRUE(same_bytes(a.positions, b.positions));
