@@ -71,6 +71,16 @@ double widest_tape(const TriMesh& mesh, const Vec3& at, const Vec3& normal) {
   return tape;
 }
 
+/// Takes out the last fraction of a millimetre of meshing: soles on y = 0, crown at the height.
+void stand(TriMesh& mesh, double height) {
+  double low = mesh.vertices.front().y(), high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = std::min(low, v.y());
+    high = std::max(high, v.y());
+  }
+  for (Vec3& v : mesh.vertices) v.y() = (v.y() - low) * (height / (high - low));
+}
+
 void set_pair(Mannequin& body, const std::string& name, const Vec3& right) {
   body.landmarks[name + "_right"] = right;
   body.landmarks[name + "_left"] = Vec3(-right.x(), right.y(), right.z());
@@ -145,6 +155,10 @@ void measure(const Figure& f, Mannequin& body) {
 
 Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options) {
   if (Result<bool> checked = body::check_measurements(measurements); !checked) return checked.error();
+  if (!(options.surface_spacing >= 0.008 && options.surface_spacing <= 0.03) ||
+      !(options.arm_angle_deg >= 35 && options.arm_angle_deg <= 60))
+    return Error{Cause::usage, "BAD_OPTION", "The mannequin's surface spacing or arm angle is out of range.",
+                 "Give a spacing of 0.008 to 0.03 m and an arm angle of 35 to 60 degrees.", ""};
   const body::BodyPlan plan = body::plan_body(measurements);
   const double angle = options.arm_angle_deg * 0.017453292519943295;
   body::Unknowns unknowns;
@@ -158,8 +172,13 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
                               [&](const Vec3& p) { return options.surface_spacing * figure.detail(p); }};
   Mannequin result;
   result.source = "built-in " + measurements.sex;
-  result.mesh = body::march(surface.distance, figure.low, figure.high, 0.6 * options.surface_spacing);
+  // Marched finer than asked, so that no thumb falls between the grid lines; the remesher takes the surplus out.
+  result.mesh = body::march(surface.distance, figure.low, figure.high, std::min(0.009, 0.6 * options.surface_spacing));
   body::remesh(result.mesh, surface, 5);
+  body::stand(result.mesh, measurements.height);
+  if (const body::MeshState state = body::inspect(result.mesh); !state.closed() || state.parts != 1)
+    return Error{Cause::internal, "BODY_NOT_CLOSED", "The built-in body did not close.",
+                 "Report the eight measurements; slightly different ones will work.", ""};
   body::describe(figure, measurements, plan, result);
   body::measure(figure, result);
   return result;

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <sstream>
 
 #include "find_landmarks.hpp"
 #include "mesh_check.hpp"
@@ -65,6 +66,23 @@ TriMesh weld(const TriMesh& soup) {
     mesh.triangles.push_back(out);
   }
   return mesh;
+}
+
+/// A PLY header may claim any number of elements, and the reader would believe it: every element needs at least a byte.
+bool honest_ply(const std::string& path, std::uintmax_t bytes) {
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  for (int i = 0; i < 200 && std::getline(in, line); ++i) {
+    if (line.size() > 1000) return false;
+    std::istringstream words(line);
+    std::string word, name;
+    words >> word;
+    if (word == "end_header") return true;
+    if (word != "element") continue;
+    std::uintmax_t count = 0;
+    if (!(words >> name >> count) || count > bytes) return false;
+  }
+  return false;
 }
 
 Result<TriMesh> read_mesh(const std::string& path) {
@@ -162,6 +180,8 @@ Result<Mannequin> import_mannequin(const std::string& path) {
   if (extension != ".obj" && extension != ".glb" && extension != ".ply")
     return refuse("NOT_A_MESH", path, "is not an OBJ, GLB or PLY file", "Give a closed mesh as OBJ, GLB or PLY.");
   if (bytes == 0) return refuse("NOT_A_MESH", path, "is empty", "Give a closed mesh as OBJ, GLB or PLY.");
+  if (extension == ".ply" && !honest_ply(path, bytes))
+    return refuse("NOT_A_MESH", path, "has a broken PLY header", "Export the mesh again.");
   try {
     Result<TriMesh> read = read_mesh(path);
     if (!read) return read.error();

@@ -21,7 +21,7 @@ struct Measurements {
 };
 
 struct MannequinOptions {
-  double surface_spacing = 0.016;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
+  double surface_spacing = 0.019;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
   double arm_angle_deg = 42;       ///< [degree] of the arms from the vertical (A-pose)
 };
 
