@@ -108,13 +108,25 @@ void cut_inside(cv::Mat& panel, Image& labels, const std::vector<Vec2>& top, con
   panel.setTo(0, fill);
 }
 
+/// True when the features stand on the outline in the template's order.
+bool in_order(const std::vector<int>& place, const std::vector<int>& order, int n) {
+  int before = -1;
+  for (const int f : order) {
+    const int along = (place[f] - place[order[0]] + n) % n;
+    if (along <= before) return false;
+    before = along;
+  }
+  return true;
+}
+
 /// Chain places of the features on `outline`, from their old pixels; the neck points look for their corner again, which
 /// the cut has sharpened.
-std::vector<int> relocate(const Outline& outline, const std::vector<Vec2>& old, int neck_from, int neck_to) {
+std::vector<int> relocate(const Outline& outline, const std::vector<Vec2>& old, const GarmentTemplate& garment) {
+  const TemplateEdge& neck = garment.edges[garment.neck_edge()];
   std::vector<int> place(old.size());
-  for (std::size_t f = 0; f < old.size(); ++f) {
-    place[f] = nearest_on(outline.chain, old[f]);
-    if (static_cast<int>(f) != neck_from && static_cast<int>(f) != neck_to) continue;
+  for (std::size_t f = 0; f < old.size(); ++f) place[f] = nearest_on(outline.chain, old[f]);
+  for (const int f : {neck.from, neck.to}) {
+    const int plain = place[f];
     double best = 0.02 * outline.diagonal;
     for (const Candidate& c : outline.candidates) {
       const double distance = (c.pixel - old[f]).norm();
@@ -122,6 +134,8 @@ std::vector<int> relocate(const Outline& outline, const std::vector<Vec2>& old, 
       best = distance;
       place[f] = c.contour_index;
     }
+    // On a strap a few pixels wide the nearest corner may be the shoulder's.
+    if (!in_order(place, outline_order(garment), static_cast<int>(outline.chain.size()))) place[f] = plain;
   }
   return place;
 }
@@ -170,6 +184,44 @@ void close_notches(cv::Mat& mask) {
   mask = padded(cv::Rect(reach, reach, mask.cols, mask.rows)).clone();
 }
 
+/// Sleeves without any gap to the body: where a limb's armpit was not found as a corner, the template's place is tried.
+/// True when the outline has the notch of a cuff on the body, so that this is what is wrong with it.
+bool free_hidden_sleeves(const GarmentTemplate& garment, const FeatureOptions& options, cv::Mat& mask, Outline& outline,
+                         Match& match, std::vector<std::string>& warnings) {
+  std::vector<std::pair<int, int>> closed;  // armpit feature, side
+  for (const TemplateLimb& limb : garment.limbs)
+    for (const int f : {limb.root_a, limb.root_b})
+      if (f >= 0 && f < static_cast<int>(garment.features.size()) && garment.features[f].turn == Turn::concave &&
+          (match.features.empty() || !match.features[f].snapped))
+        closed.emplace_back(f, garment.poses[0].uv[f].x() < 0.5 ? -1 : 1);
+  if (closed.empty()) return false;
+  bool notched = false;
+  cv::Mat best_mask;
+  Outline best_outline;
+  for (const TemplatePose& pose : garment.poses) {
+    cv::Mat tried = mask.clone();
+    bool cut = false;
+    for (const auto& [f, side] : closed) {
+      const Vec2 armpit(outline.box.x + pose.uv[f].x() * outline.box.width,
+                        outline.box.y + pose.uv[f].y() * outline.box.height);
+      cut = cut_hidden_gap(tried, outline, armpit, side) || cut;
+    }
+    if (!cut) continue;
+    notched = true;
+    Outline freed = trace_outline(tried, options);
+    Match again = match_template(freed, tried, garment);
+    if (again.score <= std::max(match.score, kMinScore)) continue;
+    match = std::move(again);
+    best_mask = tried;
+    best_outline = std::move(freed);
+  }
+  if (best_mask.empty()) return notched;
+  mask = best_mask;
+  outline = std::move(best_outline);
+  warnings.push_back("SLEEVE_ON_BODY");
+  return notched;
+}
+
 struct Work {
   const Photo& photo;
   const GarmentTemplate& garment;
@@ -194,15 +246,21 @@ Outline settle_neckline(const Work& work, cv::Mat& panel, Outline outline, std::
       cv::Mat cut = panel.clone();
       Image labels = features.labels;
       cut_inside(cut, labels, top, path.path);
-      const cv::Mat cleaned = clean_mask(cut, 1);
-      if (cv::countNonZero(cleaned) > 0.5 * cv::countNonZero(panel)) {
-        panel = cleaned;
-        features.labels = std::move(labels);
-        outline = trace_outline(panel, work.options);
-        place = relocate(outline, old, neck.from, neck.to);
-        features.neckline.inside_found = true;
+      cut = clean_mask(cut, 1);
+      Outline cut_outline = trace_outline(cut, work.options);
+      if (!cut_outline.chain.empty() && cv::countNonZero(cut) > 0.5 * cv::countNonZero(panel)) {
+        std::vector<int> cut_place = relocate(cut_outline, old, work.garment);
+        const int n = static_cast<int>(cut_outline.chain.size());
+        if (in_order(cut_place, outline_order(work.garment), n)) {
+          panel = cut;
+          features.labels = std::move(labels);
+          outline = std::move(cut_outline);
+          place = std::move(cut_place);
+          features.neckline.inside_found = true;
+        }
       }
     }
+    if (!features.neckline.inside_found && !path.expected_none) features.warnings.push_back("NECKLINE_UNCLEAR");
   }
   const std::vector<Vec2> edge = stretch(outline.chain, place[neck.from], place[neck.to]);
   features.neckline.ratio = neck_ratio(panel, edge, features.neckline.low);
@@ -234,11 +292,16 @@ Result<Features> find(const Photo& photo, const Silhouette& silhouette, const Ga
   Outline outline = trace_outline(mask, options);
   if (outline.chain.empty()) return no_outline;
 
-  const Match match = match_template(outline, mask, garment);
+  Match match = match_template(outline, mask, garment);
+  const bool hidden = free_hidden_sleeves(garment, options, mask, outline, match, features.warnings);
   if (match.pose < 0 || match.features.empty())
     return not_this_garment(photo, garment, "no way to lay it out matches the outline");
   double score = match.score;
   if (garment.limbs.empty()) score *= std::exp(-120 * cuts.gap_share);
+  if (score < kMinScore && hidden)
+    return Error{Cause::unusable, "SLEEVE_ON_BODY",
+                 file_of(photo) + ": a sleeve lies on the body without a gap that shows where it ends.",
+                 "Lay the sleeves off the body, so that the ground is seen between them.", ""};
   if (score < kMinScore)
     return not_this_garment(photo, garment, match.why + " (score " + std::to_string(score).substr(0, 4) + ")");
   features.pose = garment.poses[match.pose].name;
@@ -259,6 +322,10 @@ Result<Features> find(const Photo& photo, const Silhouette& silhouette, const Ga
     point.landmark = garment.features[f].landmark;
     point.origin = match.features[f].snapped ? "candidate" : "template";
     point.confidence = match.features[f].confidence;
+    if (garment.neck_edge() >= 0 && features.neckline.inside_found && !inside_given) {
+      const TemplateEdge& neck = garment.edges[garment.neck_edge()];
+      if (static_cast<int>(f) == neck.from || static_cast<int>(f) == neck.to) point.origin = "neckline";
+    }
     features.points.push_back(point);
   }
   features.candidates = outline.candidates;

@@ -53,8 +53,12 @@ std::vector<State> states_of(const Outline& outline, const Vec2& target, double 
     states.push_back({s, d * d - corner_reward(sample, turn), candidate});
   }
   if (states.empty()) {
-    const double d = nearest_distance / radius;
-    states.push_back({nearest, d * d - corner_reward(outline.samples[nearest], turn), false});
+    // Nothing in reach: the nearest stretch of outline, wide enough for the order around it to hold.
+    for (int k = -40; k <= 40; k += 4) {
+      const int s = ((nearest + k) % n + n) % n;
+      const double d = (outline.samples[s].at - target).norm() / radius;
+      states.push_back({s, d * d - corner_reward(outline.samples[s], turn), false});
+    }
   }
   return states;
 }

@@ -232,6 +232,7 @@ NeckPath find_front_neckline(const Image& rgb, const cv::Mat& mask, const std::v
   frame.down = Vec2(-frame.along.y(), frame.along.x());
   double top_depth = 0;
   for (const Vec2& p : top) top_depth = std::max(top_depth, frame.uv(p).y());
+  result.expected_none = top_depth >= kDeepTop;
   const Field fine = gradient_field(rgb, mask, frame, false);
   // Stripes and ribs are edges everywhere; their mean tells the trim of the neckline from the cloth.
   const Field coarse = gradient_field(rgb, mask, frame, true);

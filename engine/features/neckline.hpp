@@ -10,8 +10,9 @@ namespace vitrine::features_detail {
 /// The front neckline seen below the inside of the back.
 struct NeckPath {
   bool found = false;
-  std::vector<Vec2> path;  ///< [px] from neck_left to neck_right
-  double evidence = 0;     ///< [-] 0..1 how much of it lies on an edge of one polarity
+  bool expected_none = false;  ///< the silhouette's own top edge is as deep as a front neckline
+  std::vector<Vec2> path;      ///< [px] from neck_left to neck_right
+  double evidence = 0;         ///< [-] 0..1 how much of it lies on an edge of one polarity
 };
 
 /// Looks for the front neckline inside the silhouette below its own top edge. `top` is the silhouette's outline from

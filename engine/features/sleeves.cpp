@@ -19,7 +19,8 @@ constexpr double kSleeveShare = 0.5;
 struct Hole {
   cv::Mat mask;  // CV_8U, full size
   cv::Rect box;
-  Vec2 centre, top, end;  // end: lowest point
+  Vec2 centre, top, end;  // end: lowest point, on the sleeve's side
+  Vec2 body_end;          // lowest point on the body's side
   int side = 0;           // -1 left, +1 right
 };
 
@@ -40,13 +41,19 @@ std::vector<Hole> find_holes(const cv::Mat& mask, const cv::Rect& box, double ar
     hole.mask = cv::Mat(labels == i)(cv::Rect(1, 1, mask.cols, mask.rows)).clone();
     hole.box = cv::boundingRect(hole.mask);
     hole.centre = Vec2(centres.at<double>(i, 0) - 1, centres.at<double>(i, 1) - 1);
+    int bottom_left = -1, bottom_right = -1;
+    const int last = hole.box.br().y - 1;
     for (int x = hole.box.x; x < hole.box.br().x; ++x) {
       if (hole.mask.at<uchar>(hole.box.y, x)) hole.top = Vec2(x, hole.box.y);
-      if (hole.mask.at<uchar>(hole.box.br().y - 1, x)) hole.end = Vec2(x, hole.box.br().y - 1);
+      if (!hole.mask.at<uchar>(last, x)) continue;
+      if (bottom_left < 0) bottom_left = x;
+      bottom_right = x;
     }
     const double u = (hole.centre.x() - box.x) / box.width;
     const double v = (hole.centre.y() - box.y) / box.height;
     if (v > 0.2 && u > 0.02 && u < 0.98 && std::abs(u - 0.5) > 0.12) hole.side = u < 0.5 ? -1 : 1;
+    hole.end = Vec2(hole.side < 0 ? bottom_left : bottom_right, last);
+    hole.body_end = Vec2(hole.side < 0 ? bottom_right : bottom_left, last);
     holes.push_back(std::move(hole));
   }
   return holes;
@@ -123,9 +130,9 @@ void open_gap(cv::Mat& mask, const Outline& outline, const Hole& hole) {
     const double t = (direction.x() * way.y() - direction.y() * way.x()) / det;
     if (t > 0) tip = corner + kSleeveShare * std::min(t, kMaxOverlap * outline.diagonal) * inward;
   }
-  cut_slit(mask, hole.end, tip, outline.diagonal);
+  // A cuff that only touches the body keeps what bridges the gap: the side seam stays straight.
+  cut_slit(mask, tip == corner ? hole.body_end : hole.end, tip, outline.diagonal);
   if ((tip - corner).norm() > 1) cut_slit(mask, tip, corner, outline.diagonal);
-  cut_slit(mask, corner, corner - 3 * (tip - corner).normalized(), outline.diagonal);
 }
 
 }  // namespace
@@ -137,6 +144,33 @@ void cut_slit(cv::Mat& mask, const Vec2& from, const Vec2& to, double diagonal) 
     return cv::Point(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
   };
   cv::line(mask, pixel(from), pixel(to), 0, width);
+}
+
+bool cut_hidden_gap(cv::Mat& mask, const Outline& outline, const Vec2& armpit, int side) {
+  const double middle = outline.box.x + outline.box.width / 2.0;
+  int best = -1;
+  double best_cost = 1e30;
+  for (int s = 0; s < static_cast<int>(outline.samples.size()); ++s) {
+    const Sample& sample = outline.samples[s];
+    if (sample.candidate < 0 || sample.turn_deg > -45 || (sample.at.x() - middle) * side < 0.1 * outline.box.width)
+      continue;
+    const Vec2 way = sample.at - armpit;
+    if (way.y() < 0.2 * outline.box.height) continue;
+    const double cost = std::abs(way.x()) / way.y() - 0.3 * std::abs(sample.turn_deg) / 90;
+    if (cost < best_cost && std::abs(way.x()) < 0.6 * way.y()) {
+      best_cost = cost;
+      best = s;
+    }
+  }
+  if (best < 0) return false;
+  const double area = cv::countNonZero(mask);
+  cv::Mat cut = mask.clone();
+  const Vec2 notch = outline.samples[best].at;
+  cut_slit(cut, armpit, notch + 2 * (notch - armpit).normalized(), outline.diagonal);
+  cut = clean_mask(cut, 0);
+  if (cv::countNonZero(cut) < 0.96 * area) return false;
+  mask = cut;
+  return true;
 }
 
 SleeveCuts open_sleeve_gaps(const cv::Mat& mask, const GarmentTemplate& garment, const FeatureOptions& options) {

@@ -17,7 +17,11 @@ struct SleeveCuts {
 /// to the notch between cuff and hem; fills every other hole (loops of straps, holes of prints).
 SleeveCuts open_sleeve_gaps(const cv::Mat& mask, const GarmentTemplate& garment, const FeatureOptions& options);
 
-/// Cuts `mask` from `from` to `to` (a gap that is not visible at all). The slit is wide enough for a simple outline.
+/// A sleeve that touches the body without any gap: cuts from where the template expects the armpit to the notch between
+/// cuff and hem on that side (-1 left, +1 right). False, and nothing cut, when there is no such notch.
+bool cut_hidden_gap(cv::Mat& mask, const Outline& outline, const Vec2& armpit, int side);
+
+/// Cuts `mask` from `from` to `to`. The slit is wide enough for a simple outline.
 void cut_slit(cv::Mat& mask, const Vec2& from, const Vec2& to, double diagonal);
 
 }  // namespace vitrine::features_detail

@@ -58,7 +58,9 @@ struct Features {
 
 /// Chain code of the eroded silhouette's 4-connected boundary, one candidate per run of high curvature, template scaled
 /// to the silhouette box and matched within its search radius, neckline by the background ratio in the neck area.
-/// Errors (65): NOT_THIS_GARMENT, NO_OUTLINE; (69): a garment without usable poses.
+/// Warnings: NECKLINE_UNCLEAR (no front neckline seen below the back's; the top edge is used), SLEEVE_ON_BODY (cut
+/// where the template expects the armpit). Errors (65): NOT_THIS_GARMENT, NO_OUTLINE, SLEEVE_ON_BODY; (64):
+/// UNKNOWN_NECKLINE, BAD_OPTION; (69): NO_POSES.
 Result<Features> find_features(const Photo& photo, const Silhouette& silhouette, const GarmentTemplate& garment,
                                std::span<const NecklineTemplate> necklines, const FeatureOptions& options);
 

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "garments.hpp"
+#include "vitrine/features.hpp"
+#include "vitrine/photo.hpp"
+
+namespace vitrine {
+namespace {
+
+const std::string kFolder = std::string(VITRINE_SOURCE_DIR) + "/../shared/photos/";
+
+struct Shot {
+  std::string name, file, garment, neckline;
+  bool back = false;
+};
+
+std::vector<Shot> shots(const std::string& garment) {
+  std::ifstream index(kFolder + "index.tsv");
+  std::vector<Shot> list;
+  std::string line;
+  std::getline(index, line);
+  while (std::getline(index, line)) {
+    std::stringstream fields(line);
+    Shot shot;
+    std::string view;
+    std::getline(fields, shot.file, '\t');
+    std::getline(fields, shot.garment, '\t');
+    std::getline(fields, shot.neckline, '\t');
+    std::getline(fields, view, '\t');
+    shot.name = shot.file.substr(0, shot.file.find('.'));
+    shot.back = view == "back";
+    if (garment.empty() || shot.garment == garment) list.push_back(shot);
+  }
+  return list;
+}
+
+GarmentTemplate garment_for(const std::string& name) {
+  if (name == "vest") return test::garment_of(templates::vest);
+  if (name == "skirt") return test::garment_of(templates::skirt);
+  return test::garment_of(templates::long_sleeve);
+}
+
+/// Landmarks in the front frame: those of a back photo are mirrored with it.
+std::map<std::string, Vec2> landmarks(const Shot& shot, int width) {
+  const auto json = nlohmann::json::parse(std::ifstream(kFolder + shot.name + ".landmarks.json"));
+  std::map<std::string, Vec2> points;
+  for (const auto& [key, at] : json["points"].items()) {
+    std::string name = key;
+    Vec2 p(at[0].get<double>(), at[1].get<double>());
+    if (shot.back) {
+      p.x() = width - 1 - p.x();
+      const auto left = name.find("left"), right = name.find("right");
+      if (left != std::string::npos)
+        name.replace(left, 4, "right");
+      else if (right != std::string::npos)
+        name.replace(right, 5, "left");
+    }
+    points[name] = p;
+  }
+  return points;
+}
+
+struct Seen {
+  Photo photo;
+  Silhouette silhouette;
+  double diagonal = 1;
+};
+
+Seen see(const Shot& shot, bool keep_inside) {
+  PhotoOptions options;
+  options.mirror = shot.back;
+  Result<Photo> photo = load_photo(kFolder + shot.file, kFolder + shot.name + ".mask.png", options);
+  Seen seen;
+  if (!photo) {
+    ADD_FAILURE() << photo.error().message;
+    return seen;
+  }
+  seen.photo = *photo;
+  seen.silhouette.labels = seen.photo.mask;
+  Image& labels = seen.silhouette.labels;
+  int x0 = labels.width, x1 = 0, y0 = labels.height, y1 = 0;
+  for (int y = 0; y < labels.height; ++y)
+    for (int x = 0; x < labels.width; ++x) {
+      std::uint8_t& label = *labels.at(x, y);
+      if (label == label_background) continue;
+      if (!keep_inside) label = label_outside;
+      x0 = std::min(x0, x);
+      x1 = std::max(x1, x);
+      y0 = std::min(y0, y);
+      y1 = std::max(y1, y);
+    }
+  seen.diagonal = std::hypot(x1 - x0 + 1, y1 - y0 + 1);
+  return seen;
+}
+
+FeatureOptions options_for(const Shot& shot) {
+  FeatureOptions options;
+  options.side = shot.back ? Side::back : Side::front;
+  return options;
+}
+
+void expect_ordered_contour(const Features& features, const std::string& name) {
+  const int n = static_cast<int>(features.contour.size());
+  ASSERT_GT(n, 50) << name;
+  double area = 0;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 &a = features.contour[i], &b = features.contour[(i + 1) % n];
+    area += a.x() * b.y() - b.x() * a.y();
+  }
+  EXPECT_GT(area, 0) << name << ": the contour runs clockwise in the picture";
+  for (std::size_t k = 1; k < features.points.size(); ++k) {
+    const int first = features.points[0].contour_index;
+    EXPECT_GT((features.points[k].contour_index - first + n) % n,
+              (features.points[k - 1].contour_index - first + n) % n)
+        << name << ": " << features.points[k].name;
+  }
+  for (const FeaturePoint& p : features.points) EXPECT_EQ(p.pixel, features.contour[p.contour_index]) << name;
+}
+
+class RealFeatures : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kFolder + "index.tsv")) GTEST_SKIP() << "no real photos at ../shared/photos";
+  }
+};
+
+struct Tally {
+  std::vector<double> distances;  // [%] of the diagonal
+  int tops = 0, necklines_right = 0, refused = 0;
+};
+
+void measure(const std::string& garment, bool keep_inside, Tally& tally) {
+  const GarmentTemplate pattern = garment_for(garment);
+  const std::vector<NecklineTemplate> necklines = test::necklines();
+  for (const Shot& shot : shots(garment)) {
+    const Seen seen = see(shot, keep_inside);
+    const Result<Features> found = find_features(seen.photo, seen.silhouette, pattern, necklines, options_for(shot));
+    if (!found) {
+      std::printf("%-20s refused: %s\n", shot.name.c_str(), found.error().message.c_str());
+      ++tally.refused;
+      continue;
+    }
+    expect_ordered_contour(*found, shot.name);
+    const std::map<std::string, Vec2> truth = landmarks(shot, seen.photo.rgb.width);
+    std::printf("%-20s %-15s score %.2f neckline %-11s ratio %.2f |", shot.name.c_str(), found->pose.c_str(),
+                found->score, found->neckline.id.c_str(), found->neckline.ratio);
+    for (const FeaturePoint& p : found->points) {
+      const auto at = truth.find(p.name);
+      if (at == truth.end()) continue;
+      const double distance = 100 * (p.pixel - at->second).norm() / seen.diagonal;
+      std::printf(" %s %.1f", p.name.c_str(), distance);
+      tally.distances.push_back(distance);
+    }
+    std::printf("\n");
+    if (pattern.neck_edge() < 0) continue;
+    ++tally.tops;
+    const std::string wanted = shot.neckline == "U" ? "neck_u" : shot.neckline == "V" ? "neck_v" : "neck_square";
+    tally.necklines_right += found->neckline.id == wanted;
+  }
+}
+
+double share(std::vector<double> values, double q) {
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
+}
+
+TEST_F(RealFeatures, LieOnTheirLandmarks) {
+  Tally tally;
+  for (const char* garment : {"vest", "longsleeve", "skirt"}) measure(garment, false, tally);
+  ASSERT_FALSE(tally.distances.empty());
+  std::printf("%zu points: median %.2f %%, 90th percentile %.2f %% of the diagonal; necklines %d of %d\n",
+              tally.distances.size(), share(tally.distances, 0.5), share(tally.distances, 0.9), tally.necklines_right,
+              tally.tops);
+  EXPECT_EQ(tally.refused, 0);
+  EXPECT_LE(share(tally.distances, 0.5), 0.5);
+  EXPECT_LE(share(tally.distances, 0.9), 2.5);
+  EXPECT_GE(tally.necklines_right, 0.85 * tally.tops);
+}
+
+TEST_F(RealFeatures, LieOnTheirLandmarksWhenTheShopMarksTheInside) {
+  Tally tally;
+  for (const char* garment : {"vest", "longsleeve", "skirt"}) measure(garment, true, tally);
+  ASSERT_FALSE(tally.distances.empty());
+  EXPECT_LE(tally.refused, 1);
+  EXPECT_LE(share(tally.distances, 0.5), 0.5);
+  EXPECT_LE(share(tally.distances, 0.9), 2.5);
+  EXPECT_GE(tally.necklines_right, 0.85 * tally.tops);
+}
+
+TEST_F(RealFeatures, FindTheInsideOfTheBackOnMostFronts) {
+  int shown = 0, found_most = 0;
+  for (const char* garment : {"vest", "longsleeve"})
+    for (const Shot& shot : shots(garment)) {
+      const Seen truth = see(shot, true), seen = see(shot, false);
+      const Result<Features> found =
+          find_features(seen.photo, seen.silhouette, garment_for(garment), test::necklines(), options_for(shot));
+      if (!found) continue;
+      int both = 0, either = 0, marked = 0;
+      for (std::size_t i = 0; i < found->labels.data.size(); ++i) {
+        const bool a = truth.silhouette.labels.data[i] == label_inside, b = found->labels.data[i] == label_inside;
+        marked += a;
+        both += a && b;
+        either += a || b;
+      }
+      if (marked < 1000) continue;
+      ++shown;
+      found_most += both > 0.7 * either;
+      std::printf("%-20s inside overlap %.2f\n", shot.name.c_str(), 1.0 * both / either);
+    }
+  EXPECT_GE(found_most, 0.5 * shown);
+}
+
+TEST_F(RealFeatures, RefuseAVestOrASkirtThatIsALongSleeve) {
+  for (const Shot& shot : shots("longsleeve")) {
+    const Seen seen = see(shot, false);
+    for (const char* wrong : {"vest", "skirt"}) {
+      const Result<Features> found =
+          find_features(seen.photo, seen.silhouette, garment_for(wrong), test::necklines(), options_for(shot));
+      ASSERT_FALSE(found) << shot.name << " taken for a " << wrong;
+      EXPECT_EQ(found.error().code, "NOT_THIS_GARMENT");
+    }
+  }
+}
+
+TEST_F(RealFeatures, RefuseALongSleeveThatIsAVestOrASkirt) {
+  for (const char* garment : {"vest", "skirt"})
+    for (const Shot& shot : shots(garment)) {
+      const Seen seen = see(shot, false);
+      EXPECT_FALSE(
+          find_features(seen.photo, seen.silhouette, garment_for("longsleeve"), test::necklines(), options_for(shot)))
+          << shot.name;
+    }
+}
+
+}  // namespace
+}  // namespace vitrine
