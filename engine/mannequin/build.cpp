@@ -29,8 +29,8 @@ Vec3 acromion_of(const Figure& f) {
   return f.exit(f.arm_root, Vec3::UnitY());
 }
 
-/// Damped fixed-point rounds on the scalars that the tape answers almost one to one. Gives the worst girth error [m].
-double solve(const Measurements& m, const BodyPlan& plan, double arm_angle, Unknowns& u) {
+Unknowns first_guess(const Measurements& m) {
+  Unknowns u;
   u.under_bust = m.under_bust;
   u.waist = m.waist;
   u.hip = m.hip;
@@ -39,6 +39,12 @@ double solve(const Measurements& m, const BodyPlan& plan, double arm_angle, Unkn
   u.crotch = m.inside_leg;
   u.upper_arm = 0.55 * m.arm;
   u.forearm = 0.437 * m.arm;
+  return u;
+}
+
+/// Damped fixed-point rounds on the scalars that the tape answers almost one to one, until the solid built from `m` has
+/// the girths in `aim`. Gives the worst error [m].
+double solve(const Measurements& m, const Measurements& aim, const BodyPlan& plan, double arm_angle, Unknowns& u) {
   double worst = 0;
   for (int round = 0; round < 14; ++round) {
     const Figure f(m, plan, arm_angle, u);
@@ -47,8 +53,8 @@ double solve(const Measurements& m, const BodyPlan& plan, double arm_angle, Unkn
     const Vec3 acromion = acromion_of(f);
     const double upper = (f.elbow - acromion).norm(), fore = (f.wrist - f.elbow).norm();
     const double miss[] = {
-        m.under_bust - t.under_bust, m.bust - t.bust,       m.waist - t.waist,     m.hip - t.hip,
-        m.neck_base - t.neck,        m.inside_leg - crotch, 0.563 * m.arm - upper, 0.437 * m.arm - fore};
+        aim.under_bust - t.under_bust, aim.bust - t.bust,     aim.waist - t.waist,   aim.hip - t.hip,
+        aim.neck_base - t.neck,        m.inside_leg - crotch, 0.563 * m.arm - upper, 0.437 * m.arm - fore};
     worst = 0;
     for (double x : miss) worst = std::max(worst, std::abs(x));
     if (worst < 2e-4) break;
@@ -161,26 +167,43 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
                  "Give a spacing of 0.008 to 0.03 m and an arm angle of 35 to 60 degrees.", ""};
   const body::BodyPlan plan = body::plan_body(measurements);
   const double angle = options.arm_angle_deg * 0.017453292519943295;
-  body::Unknowns unknowns;
-  const double worst = body::solve(measurements, plan, angle, unknowns);
-  if (worst > 3e-3)
-    return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", "No body was found that has these measurements together.",
-                 "Check bust, under_bust, waist, hip, inside_leg and neck_base against each other.", ""};
-  const body::Figure figure(measurements, plan, angle, unknowns);
-  const body::Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
-                              [&figure](const Vec3& p) { return figure.gradient(p); },
-                              [&](const Vec3& p) { return options.surface_spacing * figure.detail(p); }};
+  body::Unknowns unknowns = body::first_guess(measurements);
+  Measurements aim = measurements;
   Mannequin result;
   result.source = "built-in " + measurements.sex;
-  // Marched finer than asked, so that no thumb falls between the grid lines; the remesher takes the surplus out.
-  result.mesh = body::march(surface.distance, figure.low, figure.high, std::min(0.009, 0.6 * options.surface_spacing));
-  body::remesh(result.mesh, surface, 5);
-  body::stand(result.mesh, measurements.height);
-  if (const body::MeshState state = body::inspect(result.mesh); !state.closed() || state.parts != 1)
-    return Error{Cause::internal, "BODY_NOT_CLOSED", "The built-in body did not close.",
-                 "Report the eight measurements; slightly different ones will work.", ""};
-  body::describe(figure, measurements, plan, result);
-  body::measure(figure, result);
+  // Triangles cut corners, so the mesh reads a few millimetres off the solid: the second pass aims that much aside.
+  for (int pass = 0; pass < 2; ++pass) {
+    if (body::solve(measurements, aim, plan, angle, unknowns) > 3e-3)
+      return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS",
+                   "No body was found that has these measurements together.",
+                   "Check bust, under_bust, waist, hip, inside_leg and neck_base against each other.", ""};
+    const body::Figure figure(measurements, plan, angle, unknowns);
+    const body::Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
+                                [&figure](const Vec3& p) { return figure.gradient(p); },
+                                [&](const Vec3& p) { return options.surface_spacing * figure.detail(p); }};
+    // Marched finer than asked, so that no thumb falls between the grid lines; the remesher takes the surplus out.
+    result.mesh =
+        body::march(surface.distance, figure.low, figure.high, std::min(0.009, 0.6 * options.surface_spacing));
+    body::remesh(result.mesh, surface, 5);
+    body::stand(result.mesh, measurements.height);
+    if (const body::MeshState state = body::inspect(result.mesh); !state.closed() || state.parts != 1)
+      return Error{Cause::internal, "BODY_NOT_CLOSED", "The built-in body did not close.",
+                   "Report the eight measurements; slightly different ones will work.", ""};
+    body::describe(figure, measurements, plan, result);
+    body::measure(figure, result);
+    double worst = 0;
+    const auto correct = [&](double Measurements::*size, const char* name) {
+      const double miss = measurements.*size - result.girths.at(name);
+      worst = std::max(worst, std::abs(miss));
+      aim.*size += std::clamp(miss, -0.01, 0.01);
+    };
+    correct(&Measurements::bust, "bust");
+    correct(&Measurements::under_bust, "under_bust");
+    correct(&Measurements::waist, "waist");
+    correct(&Measurements::hip, "hip");
+    correct(&Measurements::neck_base, "neck_base");
+    if (worst < 1e-3) break;
+  }
   return result;
 }
 

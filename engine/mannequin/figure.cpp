@@ -139,7 +139,11 @@ Vec3 Figure::leg_centre(double height) const {
 double Figure::detail(const Vec3& p) const {
   const Vec3 side(std::abs(p.x()), p.y(), p.z());
   const double past_wrist = (side - wrist).dot(arm_axis), above_neck = p.y() - neck_base.y();
-  const double fine = std::max({past_wrist / 0.05, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
+  // Tight corners, too: crotch and armpits, where long edges would cut through the air.
+  const double crotch = 1.6 - (p - Vec3(0, crotch_y_, 0)).norm() / 0.05;
+  const double armpit = 1.6 - (side - armpit_).norm() / 0.05;
+  const double fine =
+      std::max({crotch, armpit, past_wrist / 0.05, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
   return 1 - 0.42 * std::clamp(fine, 0.0, 1.0);
 }
 

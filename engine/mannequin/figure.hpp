@@ -64,7 +64,9 @@ class Figure {
   void make_leg(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
   void make_arm(const Measurements& m, const BodyPlan& plan, const Unknowns& u, double arm_angle);
 
-  double crotch_z_ = -0.01;  ///< [m] depth at which the crotch is measured
+  double crotch_z_ = -0.01;     ///< [m] depth at which the crotch is measured
+  double crotch_y_ = 0;         ///< [m] height asked for
+  Vec3 armpit_ = Vec3::Zero();  ///< about where chest and arm meet
   double height_ = 0, hip_half_ = 0, chest_half_ = 0;
   bool woman_ = true;
   double arm_blend_ = 0, arm_free_ = 0;  ///< blend at the shoulder, and the way along the arm over which it fades

@@ -28,6 +28,7 @@ Section station(double s, double x, double z, double girth, double ratio, double
 
 void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknowns&) {
   const double h = m.height, crotch = m.inside_leg, knee = std::min(plan.knee_height, 0.66 * crotch);
+  crotch_y_ = crotch;
   knee_height = knee;
   ankle_height = 0.040 * h;
   const double below = knee / 0.2756;  // stretches the lower leg's stations with the knee's height
@@ -126,7 +127,7 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   const double y = plan.acromion_height - shoulder;
   arm_root = Vec3(0.5 * plan.biacromial + (woman_ ? -0.004 : 0.004) * h, y, -0.004 * h);
   // The arm must clear the chest at the bust, where the tape and the garment pass: first it moves out, then it lifts.
-  const double clear = std::max(chest_half_, 0.6 * chest_half_ + 0.0 * h) + 0.016;
+  const double clear = chest_half_ + 0.016;
   const auto inner = [&](double angle) {
     return arm_root.x() + (y - bust_height) * std::tan(angle) - 1.04 * shoulder / std::cos(angle);
   };
@@ -147,7 +148,7 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   add(-0.020 * h, 0.80 * round, 1.05);
   add(0.000, 0.97 * round, 1.05);
   add(0.14 * reach, round, 1.06);
-  add(0.35 * reach, 0.99 * biceps + 0.0 * round, 1.06);
+  add(0.35 * reach, 0.99 * biceps, 1.06);
   add(0.60 * reach, 0.96 * biceps, 1.06);
   add(0.85 * reach, 0.45 * biceps + 0.52 * forearm, 1.02);
   add(reach, 0.96 * forearm, 1.0);
@@ -189,6 +190,9 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   thumb_.ra = 0.26 * palm;
   thumb_.rb = 0.20 * palm;
 
+  // Where the arm's lower edge runs into the chest's side.
+  const double down = (chest_half_ - inner(angle) + (y - bust_height) * std::tan(angle)) / std::tan(angle);
+  armpit_ = Vec3(chest_half_, y - std::max(down, 0.0), 0);
   arm_blend_ = 0.045;
   arm_free_ = 0.085 * h / std::cos(angle);
   // The girdle carries the slope from the side of the neck to the acromion.

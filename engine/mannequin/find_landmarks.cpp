@@ -16,8 +16,8 @@ namespace {
 // Heights are shares of the stature; where no shape tells (knee, ankle), they are the ANSUR II means.
 constexpr double huge = std::numeric_limits<double>::max();
 
-Error no_body(const std::string& source, const std::string& part) {
-  return Error{Cause::unusable, "NOT_A_BODY", "No " + part + " was found on the mannequin " + source + ".",
+Error no_body(const std::string& path, const std::string& part) {
+  return Error{Cause::unusable, "NOT_A_BODY", "No " + part + " was found on the mannequin " + path + ".",
                "Give a standing body with its arms away from the trunk (25 to 60 degrees) and its legs apart.", ""};
 }
 
@@ -63,9 +63,9 @@ Vec3 midline(const Ring& ring, int sign) {
 
 class Finder {
  public:
-  explicit Finder(Mannequin& body) : body_(body), mesh_(body.mesh), mark_(body.landmarks), girth_(body.girths) {}
+  explicit Finder(Mannequin& body) : mesh_(body.mesh), mark_(body.landmarks), girth_(body.girths) {}
 
-  Result<bool> run() {
+  Result<bool> run(const std::string& path) {
     for (const Vec3& v : mesh_.vertices) {
       if (v.y() > h_) {
         h_ = v.y();
@@ -73,12 +73,12 @@ class Finder {
       }
     }
     girth_["height"] = h_;
-    if (!centre()) return no_body(body_.source, "trunk");
-    if (!legs()) return no_body(body_.source, "pair of legs");
-    if (!trunk()) return no_body(body_.source, "pair of arms apart from the trunk");
-    if (!neck()) return no_body(body_.source, "neck");
+    if (!centre()) return no_body(path, "trunk");
+    if (!legs()) return no_body(path, "pair of legs");
+    if (!trunk()) return no_body(path, "pair of arms apart from the trunk");
+    if (!neck()) return no_body(path, "neck");
     for (int side : {-1, 1})
-      if (!arm(side)) return no_body(body_.source, side < 0 ? "left arm" : "right arm");
+      if (!arm(side)) return no_body(path, side < 0 ? "left arm" : "right arm");
     return true;
   }
 
@@ -292,7 +292,6 @@ class Finder {
     return true;
   }
 
-  Mannequin& body_;
   TriMesh& mesh_;
   std::map<std::string, Vec3>& mark_;
   std::map<std::string, double>& girth_;
@@ -301,8 +300,8 @@ class Finder {
 
 }  // namespace
 
-Result<bool> find_landmarks(Mannequin& body) {
-  return Finder(body).run();
+Result<bool> find_landmarks(Mannequin& body, const std::string& path) {
+  return Finder(body).run(path);
 }
 
 }  // namespace vitrine::body

@@ -6,7 +6,8 @@
 namespace vitrine::body {
 
 /// Fills landmarks and girths of a closed mesh that stands on y = 0 and faces +Z, from plane sections of it. The mesh
-/// is moved so that the trunk's middle lies on x = z = 0. Error NOT_A_BODY names the part that was not found.
-Result<bool> find_landmarks(Mannequin& body);
+/// is moved so that the trunk's middle lies on x = z = 0. Error NOT_A_BODY names `path` and the part that was not
+/// found.
+Result<bool> find_landmarks(Mannequin& body, const std::string& path);
 
 }  // namespace vitrine::body

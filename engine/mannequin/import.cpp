@@ -217,7 +217,7 @@ Result<Mannequin> import_mannequin(const std::string& path) {
     if (!(volume > 0.006 * height * height * height && volume < 0.06 * height * height * height))
       return refuse("NOT_A_BODY", path, "has a volume that no body of its height has",
                     "Give a closed body with arms and legs.");
-    Result<bool> found = body::find_landmarks(result);
+    Result<bool> found = body::find_landmarks(result, path);
     if (!found) return found.error();
     return result;
   } catch (const std::exception& e) {

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "mesh_check.hpp"
+#include "shapes.hpp"
+#include "slice.hpp"
+
+namespace vitrine {
+namespace {
+
+struct Person {
+  const char* name;
+  Measurements size;
+};
+
+// sex, height, bust, under_bust, waist, hip, inside_leg, arm, neck_base [m]
+const Person people[] = {
+    {"default", {}},
+    {"petite", {"woman", 1.52, 0.80, 0.70, 0.62, 0.86, 0.71, 0.50, 0.33}},
+    {"plus", {"woman", 1.65, 1.24, 1.05, 1.10, 1.26, 0.77, 0.55, 0.40}},
+    {"waist_above_hip", {"woman", 1.62, 1.10, 1.00, 1.14, 1.08, 0.77, 0.54, 0.39}},
+    {"tall", {"woman", 1.90, 0.92, 0.79, 0.72, 0.98, 0.93, 0.64, 0.38}},
+    {"under_bust_above_bust", {"woman", 1.68, 0.88, 0.90, 0.80, 0.96, 0.80, 0.56, 0.37}},
+    {"man", {"man", 1.78, 1.00, 0.95, 0.84, 0.98, 0.83, 0.60, 0.42}},
+    {"heavy_man", {"man", 1.76, 1.22, 1.16, 1.24, 1.16, 0.80, 0.59, 0.48}},
+    {"small_corner", {"woman", 1.40, 0.70, 0.60, 0.55, 0.78, 0.574, 0.392, 0.30}},
+    {"large_corner", {"woman", 1.70, 1.50, 1.30, 1.45, 1.50, 0.78, 0.56, 0.46}},
+    {"long_legs", {"man", 2.10, 1.10, 1.04, 0.95, 1.10, 1.113, 0.819, 0.46}},
+};
+
+const Mannequin& body_of(const Person& person) {
+  static std::map<std::string, Mannequin> made;
+  auto found = made.find(person.name);
+  if (found == made.end()) {
+    Result<Mannequin> body = build_mannequin(person.size);
+    if (!body) ADD_FAILURE() << person.name << ": " << body.error().message;
+    found = made.emplace(person.name, body ? *body : Mannequin{}).first;
+  }
+  return found->second;
+}
+
+class BuiltBody : public testing::TestWithParam<Person> {
+ protected:
+  const Mannequin& body = body_of(GetParam());
+  const Measurements& asked = GetParam().size;
+  Vec3 at(const std::string& name) const { return body.landmarks.at(name); }
+};
+
+INSTANTIATE_TEST_SUITE_P(people, BuiltBody, testing::ValuesIn(people),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(BuiltBody, is_one_closed_manifold_that_faces_outward) {
+  const body::MeshState state = body::inspect(body.mesh);
+  EXPECT_TRUE(state.finite && state.valid_indices);
+  EXPECT_EQ(state.open_edges, 0u);
+  EXPECT_EQ(state.crowded_edges, 0u);
+  EXPECT_EQ(state.turned_edges, 0u);
+  EXPECT_EQ(state.parts, 1u);
+  EXPECT_GT(body::signed_volume(body.mesh), 0.015);
+  EXPECT_GE(body.mesh.triangles.size(), 8000u);
+  EXPECT_LE(body.mesh.triangles.size(), 40000u);
+  // A sphere's Euler number: no handles where hands, thighs or arms would have grown together.
+  EXPECT_EQ(body.mesh.vertices.size() * 2, body.mesh.triangles.size() + 4);
+}
+
+TEST_P(BuiltBody, has_the_girths_that_were_asked_for) {
+  const auto girth = [&](const char* name) { return body.girths.at(name) * 1e3; };
+  EXPECT_NEAR(girth("bust"), asked.bust * 1e3, 3);
+  EXPECT_NEAR(girth("under_bust"), asked.under_bust * 1e3, 3);
+  EXPECT_NEAR(girth("waist"), asked.waist * 1e3, 3);
+  EXPECT_NEAR(girth("hip"), asked.hip * 1e3, 3);
+  EXPECT_NEAR(girth("neck_base"), asked.neck_base * 1e3, 4);
+  EXPECT_NEAR(girth("height"), asked.height * 1e3, 1);
+  EXPECT_NEAR(girth("inside_leg"), asked.inside_leg * 1e3, 3);
+  EXPECT_NEAR(girth("arm"), asked.arm * 1e3, 1);
+  for (const char* name : {"biceps", "wrist", "thigh"}) EXPECT_GT(girth(name), 90) << name;
+}
+
+TEST_P(BuiltBody, stands_on_the_floor_in_the_middle) {
+  Vec3 low = Vec3::Constant(9), high = -low;
+  for (const Vec3& v : body.mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  EXPECT_NEAR(low.y(), 0, 1e-9);
+  EXPECT_NEAR(high.y(), asked.height, 1e-3);
+  EXPECT_NEAR(low.x() + high.x(), 0, 2e-3);
+}
+
+TEST_P(BuiltBody, keeps_its_arms_off_the_trunk_at_the_bust) {
+  const Vec3 bust = at("bust_right");
+  const std::vector<body::Ring> rings = body::slice(body.mesh, Vec3(0, bust.y(), 0), Vec3::UnitY());
+  ASSERT_GE(rings.size(), 3u) << "trunk and two arms";
+  EXPECT_TRUE(rings[0].holds(Vec3(0, bust.y(), 0.01)));
+  EXPECT_GT(rings[1].low.x() > 0 ? rings[1].low.x() : -rings[1].high.x(), rings[0].high.x() + 0.002);
+}
+
+TEST_P(BuiltBody, keeps_its_legs_apart_below_the_crotch) {
+  const double crotch = at("crotch").y();
+  for (const double share : {0.985, 0.9, 0.7, 0.5, 0.3, 0.1}) {
+    int legs = 0;
+    for (const body::Ring& ring : body::slice(body.mesh, Vec3(0, share * crotch, 0), Vec3::UnitY())) {
+      EXPECT_GT(ring.low.x() * ring.high.x(), 0) << "nothing spans the middle at " << share;
+      if (std::abs(ring.centre.x()) < 0.13 * asked.height) ++legs;
+    }
+    EXPECT_EQ(legs, 2) << share;
+  }
+}
+
+TEST_P(BuiltBody, has_every_landmark_in_order_of_height) {
+  for (const char* name :
+       {"neck_left",    "neck_right",   "neck_front",  "neck_back",   "shoulder_left", "shoulder_right",
+        "armpit_left",  "armpit_right", "bust_left",   "bust_right",  "under_bust",    "waist",
+        "waist_left",   "waist_right",  "hip",         "hip_left",    "hip_right",     "biceps_left",
+        "biceps_right", "elbow_left",   "elbow_right", "wrist_left",  "wrist_right",   "crotch",
+        "knee_left",    "knee_right",   "ankle_left",  "ankle_right", "crown"})
+    ASSERT_TRUE(body.landmarks.count(name) == 1 && body.landmarks.at(name).allFinite()) << name;
+  const char* order[] = {"ankle_right", "knee_right",   "crotch",         "hip",        "waist", "under_bust",
+                         "bust_right",  "armpit_right", "shoulder_right", "neck_right", "crown"};
+  for (std::size_t i = 0; i + 1 < std::size(order); ++i) EXPECT_LT(at(order[i]).y(), at(order[i + 1]).y()) << order[i];
+  EXPECT_LT(at("neck_front").y(), at("neck_right").y());
+  EXPECT_LT(at("neck_right").y(), at("neck_back").y());
+  EXPECT_GT(at("shoulder_right").y(), at("elbow_right").y());
+  EXPECT_GT(at("elbow_right").y(), at("wrist_right").y());
+  EXPECT_LT(at("neck_right").x() + 0.05, at("shoulder_right").x());
+  for (const char* name : {"neck", "shoulder", "armpit", "bust", "waist", "hip", "elbow", "wrist", "knee", "ankle"}) {
+    const Vec3 l = at(std::string(name) + "_left"), r = at(std::string(name) + "_right");
+    EXPECT_LT(l.x(), 0) << name;
+    EXPECT_LT((Vec3(-l.x(), l.y(), l.z()) - r).norm(), 1e-9) << name;
+  }
+}
+
+TEST_P(BuiltBody, has_surface_landmarks_on_the_skin_and_joints_inside) {
+  const Result<DistanceField> field = voxelise(body.mesh, {0.008, 0.03});
+  ASSERT_TRUE(field);
+  for (const char* name : {"neck_left", "neck_right", "neck_front", "neck_back", "shoulder_left", "armpit_right",
+                           "bust_left", "under_bust", "waist", "waist_left", "hip", "hip_right", "crown"})
+    // The armpit is a tight corner that triangles cut.
+    EXPECT_NEAR(field->distance(at(name)), 0, std::string(name) == "armpit_right" ? 0.010 : 0.004) << name;
+  for (const char* name :
+       {"biceps_left", "elbow_left", "elbow_right", "wrist_left", "wrist_right", "knee_left", "ankle_right"})
+    EXPECT_LT(field->distance(at(name)), -0.012) << name;
+}
+
+TEST_P(BuiltBody, is_its_own_mirror_image) {
+  const Result<DistanceField> field = voxelise(body.mesh, {0.008, 0.03});
+  ASSERT_TRUE(field);
+  double worst = 0;
+  for (const Vec3& v : body.mesh.vertices)
+    worst = std::max(worst, std::abs(field->distance(Vec3(-v.x(), v.y(), v.z())) - field->distance(v)));
+  EXPECT_LT(worst, 0.006);
+}
+
+TEST_P(BuiltBody, has_no_needle_triangles) {
+  std::size_t thin = 0;
+  for (const Triangle& t : body.mesh.triangles) {
+    const Vec3 &a = body.mesh.vertices[t[0]], &b = body.mesh.vertices[t[1]], &c = body.mesh.vertices[t[2]];
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    if ((b - a).cross(c - a).norm() < 0.2 * longest * longest) ++thin;
+  }
+  EXPECT_LT(thin, body.mesh.triangles.size() / 200);
+}
+
+TEST(BuildMannequin, gives_the_same_bytes_twice) {
+  const Result<Mannequin> a = build_mannequin({}), b = build_mannequin({});
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->mesh.vertices.size(), b->mesh.vertices.size());
+  EXPECT_EQ(0, std::memcmp(a->mesh.vertices.data(), b->mesh.vertices.data(), a->mesh.vertices.size() * sizeof(Vec3)));
+  EXPECT_EQ(a->mesh.triangles, b->mesh.triangles);
+  EXPECT_EQ(a->girths, b->girths);
+}
+
+TEST(BuildMannequin, names_the_measurement_it_refuses_and_the_range) {
+  const auto refused = [](const char* name, double Measurements::*field, double value) {
+    Measurements m;
+    m.*field = value;
+    const Result<Mannequin> body = build_mannequin(m);
+    ASSERT_FALSE(body) << name;
+    EXPECT_EQ(body.error().code, "IMPLAUSIBLE_MEASUREMENTS");
+    EXPECT_EQ(body.error().exit_code(), 65);
+    EXPECT_THAT(body.error().message, testing::HasSubstr(name));
+    EXPECT_THAT(body.error().message, testing::ContainsRegex("[0-9]+ to [0-9]+ mm"));
+  };
+  refused("height", &Measurements::height, 1.3);
+  refused("height", &Measurements::height, 172);
+  refused("bust", &Measurements::bust, 0.65);
+  refused("under_bust", &Measurements::under_bust, 0.95);
+  refused("waist", &Measurements::waist, 1.6);
+  refused("hip", &Measurements::hip, 0.70);
+  refused("inside_leg", &Measurements::inside_leg, 0.60);
+  refused("arm", &Measurements::arm, 0.80);
+  refused("neck_base", &Measurements::neck_base, 0.20);
+  refused("bust", &Measurements::bust, std::nan(""));
+}
+
+TEST(BuildMannequin, refuses_an_unknown_sex_and_wild_options) {
+  Measurements m;
+  m.sex = "robot";
+  EXPECT_EQ(build_mannequin(m).error().code, "IMPLAUSIBLE_MEASUREMENTS");
+  EXPECT_EQ(build_mannequin({}, {1e-6, 42}).error().exit_code(), 64);
+  EXPECT_EQ(build_mannequin({}, {0.016, 200}).error().exit_code(), 64);
+}
+
+TEST(BuildMannequin, holds_the_arms_in_an_a_pose) {
+  const Result<Mannequin> body = build_mannequin({});
+  ASSERT_TRUE(body);
+  const Vec3 arm = body->landmarks.at("elbow_right") - body->landmarks.at("shoulder_right");
+  const double angle = std::atan2(arm.x(), -arm.y()) * 57.29577951308232;
+  EXPECT_GT(angle, 32);
+  EXPECT_LT(angle, 48);
+}
+
+}  // namespace
+}  // namespace vitrine

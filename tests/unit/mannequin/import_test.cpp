@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "mesh_check.hpp"
+#include "shapes.hpp"
+
+namespace vitrine {
+namespace {
+
+using test::box_mesh;
+using test::write_obj;
+using test::write_text;
+
+const Mannequin& reference() {
+  static const Mannequin body = *build_mannequin({});
+  return body;
+}
+
+void expect_refused(const std::string& path, const std::string& code, int exit_code = 65) {
+  const Result<Mannequin> body = import_mannequin(path);
+  ASSERT_FALSE(body) << path;
+  EXPECT_EQ(body.error().code, code) << body.error().message;
+  EXPECT_EQ(body.error().exit_code(), exit_code);
+  EXPECT_THAT(body.error().message, testing::HasSubstr(path));
+  EXPECT_FALSE(body.error().remedy.empty());
+}
+
+TEST(ImportMannequin, finds_on_the_mesh_what_the_builder_knew) {
+  const Result<Mannequin> body = import_mannequin(write_obj("metres", reference().mesh));
+  ASSERT_TRUE(body) << body.error().message;
+  for (const auto& [name, p] : reference().landmarks) {
+    ASSERT_EQ(body->landmarks.count(name), 1u) << name;
+    const Vec3 q = body->landmarks.at(name);
+    const bool limb = name.find("elbow") == 0 || name.find("wrist") == 0 || name.find("biceps") == 0;
+    EXPECT_NEAR(q.x(), p.x(), limb ? 0.05 : 0.035) << name;
+    EXPECT_NEAR(q.y(), p.y(), 0.045) << name;
+  }
+  for (const char* name : {"bust", "waist", "hip", "height", "inside_leg", "arm", "biceps", "thigh"})
+    EXPECT_NEAR(body->girths.at(name) / reference().girths.at(name), 1, 0.04) << name;
+  EXPECT_EQ(body->source, "mannequin_metres.obj");
+}
+
+TEST(ImportMannequin, guesses_metres_centimetres_and_millimetres_and_stands_the_body_on_the_floor) {
+  for (const double unit : {1.0, 100.0, 1000.0}) {
+    const Result<Mannequin> body = import_mannequin(write_obj("unit", reference().mesh, unit, Vec3(0.4, 0.7, -0.3)));
+    ASSERT_TRUE(body) << unit << ": " << body.error().message;
+    EXPECT_NEAR(body->girths.at("height"), 1.72, 1e-3);
+    Vec3 low = Vec3::Constant(9), high = -low;
+    for (const Vec3& v : body->mesh.vertices) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    EXPECT_NEAR(low.y(), 0, 1e-6);
+    EXPECT_NEAR(low.x() + high.x(), 0, 0.004);
+  }
+}
+
+TEST(ImportMannequin, turns_an_inside_out_mesh) {
+  TriMesh mesh = reference().mesh;
+  for (Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
+  const Result<Mannequin> body = import_mannequin(write_obj("inside_out", mesh));
+  ASSERT_TRUE(body) << body.error().message;
+  EXPECT_GT(body::signed_volume(body->mesh), 0);
+}
+
+TEST(ImportMannequin, welds_a_triangle_soup) {
+  TriMesh soup;
+  for (const Triangle& t : reference().mesh.triangles) {
+    const auto base = static_cast<std::uint32_t>(soup.vertices.size());
+    for (std::uint32_t v : t) soup.vertices.push_back(reference().mesh.vertices[v]);
+    soup.triangles.push_back({base, base + 1, base + 2});
+  }
+  const Result<Mannequin> body = import_mannequin(write_obj("soup", soup));
+  ASSERT_TRUE(body) << body.error().message;
+  EXPECT_EQ(body->mesh.vertices.size(), reference().mesh.vertices.size());
+}
+
+TEST(ImportMannequin, reads_a_ply) {
+  std::ostringstream ply;
+  const TriMesh& mesh = reference().mesh;
+  ply << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n"
+      << std::setprecision(9);
+  for (const Vec3& v : mesh.vertices) ply << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  for (const Triangle& t : mesh.triangles) ply << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  const Result<Mannequin> body = import_mannequin(write_text("body.ply", ply.str()));
+  ASSERT_TRUE(body) << body.error().message;
+  EXPECT_EQ(body->mesh.triangles.size(), mesh.triangles.size());
+}
+
+TEST(ImportMannequin, refuses_files_that_are_missing_or_no_mesh) {
+  expect_refused("no_such_mannequin.obj", "MISSING_FILE", 66);
+  expect_refused(VITRINE_BINARY_DIR, "MISSING_FILE", 66);
+  expect_refused(write_text("empty.obj", ""), "NOT_A_MESH");
+  expect_refused(write_text("prose.obj", "Once upon a time there was no mesh.\n"), "NOT_A_MESH");
+  expect_refused(write_text("prose.glb", "glTF but not really"), "NOT_A_MESH");
+  expect_refused(write_text("prose.ply", "ply\nformat ascii 1.0\nelement vertex 999999999999\nend_header\n"),
+                 "NOT_A_MESH");
+  expect_refused(write_text("prose.txt", "v 0 0 0"), "NOT_A_MESH");
+  expect_refused(write_text("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "NOT_A_MESH");
+  expect_refused(write_text("indices.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "NOT_A_MESH");
+}
+
+TEST(ImportMannequin, refuses_vertices_that_are_not_numbers) {
+  TriMesh mesh = box_mesh(Vec3(0.2, 0.85, 0.15), Vec3(0, 0.85, 0));
+  mesh.vertices[2].x() = std::nan("");
+  expect_refused(write_obj("nan", mesh), "NOT_A_MESH");
+}
+
+TEST(ImportMannequin, refuses_an_open_mesh) {
+  TriMesh mesh = reference().mesh;
+  mesh.triangles.resize(mesh.triangles.size() - 5);
+  expect_refused(write_obj("open", mesh), "NOT_WATERTIGHT");
+}
+
+TEST(ImportMannequin, refuses_what_is_no_standing_body) {
+  expect_refused(write_obj("cube", box_mesh(Vec3::Constant(0.85), Vec3::Zero())), "NOT_A_BODY");
+  expect_refused(write_obj("board", box_mesh(Vec3(0.25, 0.85, 0.12), Vec3::Zero())), "NOT_A_BODY");
+  expect_refused(write_obj("doll", reference().mesh, 0.2), "NOT_A_BODY");
+  TriMesh lying = reference().mesh;
+  for (Vec3& v : lying.vertices) v = Vec3(v.x(), -v.z(), v.y());
+  expect_refused(write_obj("lying", lying), "NOT_A_BODY");
+  TriMesh pair = reference().mesh;
+  const auto base = static_cast<std::uint32_t>(pair.vertices.size());
+  for (const Vec3& v : reference().mesh.vertices) pair.vertices.push_back(v + Vec3(0, 0, 0.5));
+  for (const Triangle& t : reference().mesh.triangles)
+    pair.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+  expect_refused(write_obj("pair", pair), "NOT_A_BODY");
+}
+
+TEST(ImportMannequin, measures_mannequins_that_others_made) {
+  const std::string folder = std::string(VITRINE_SOURCE_DIR) + "/../shared/mannequins/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the folder with other people's mannequins is absent";
+  struct Known {
+    const char* file;
+    double bust, under_bust, waist, hip, inside_leg, arm;
+  };
+  const Known known[] = {{"mh_female_average.obj", 0.9281, 0.8019, 0.7679, 1.0107, 0.7644, 0.5296},
+                         {"mh_male_average.obj", 1.0164, 0.9739, 0.8578, 1.0099, 0.8265, 0.5901}};
+  for (const Known& k : known) {
+    const Result<Mannequin> body = import_mannequin(folder + k.file);
+    ASSERT_TRUE(body) << body.error().message;
+    EXPECT_NEAR(body->girths.at("bust") / k.bust, 1, 0.03);
+    EXPECT_NEAR(body->girths.at("under_bust") / k.under_bust, 1, 0.04);
+    EXPECT_NEAR(body->girths.at("waist") / k.waist, 1, 0.02);
+    EXPECT_NEAR(body->girths.at("hip") / k.hip, 1, 0.02);
+    EXPECT_NEAR(body->girths.at("inside_leg") / k.inside_leg, 1, 0.02);
+    EXPECT_NEAR(body->girths.at("arm") / k.arm, 1, 0.07);
+    const Result<DistanceField> field = voxelise(body->mesh, {0.008, 0.03});
+    ASSERT_TRUE(field);
+    for (const char* joint : {"elbow_left", "elbow_right", "wrist_left", "wrist_right", "biceps_left", "knee_right"})
+      EXPECT_LT(field->distance(body->landmarks.at(joint)), -0.01) << joint;
+    for (const char* skin : {"neck_left", "neck_right", "shoulder_left", "shoulder_right", "waist", "hip", "bust_left"})
+      EXPECT_NEAR(field->distance(body->landmarks.at(skin)), 0, 0.005) << skin;
+  }
+  const Result<Mannequin> human = import_mannequin(folder + "deb_assimp_human.obj");
+  ASSERT_TRUE(human) << human.error().message;
+  EXPECT_NEAR(human->girths.at("height"), 1.75, 0.01);
+}
+
+}  // namespace
+}  // namespace vitrine
