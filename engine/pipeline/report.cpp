@@ -130,7 +130,7 @@ std::string report_json(const ConvertRequest& request, const Conversion& item) {
   j["warnings"] = item.warnings;
   // Processor time is the one part of a conversion that differs between two runs; it is kept apart, last, and in no
   // other file.
-  Json ms;
+  Json ms = Json::object();
   for (const auto& [stage, value] : item.stage_ms) ms[stage] = ms.value(stage, 0.0) + value;
   j["versions"] = {{"vitrine", request.version}, {"report", 1}};
   j["ms"] = ms;

@@ -16,10 +16,14 @@ struct MeasurementField {
   const char* name;
   double Measurements::*field;
 };
-constexpr MeasurementField measurement_fields[] = {
-    {"height", &Measurements::height},         {"bust", &Measurements::bust}, {"under_bust", &Measurements::under_bust},
-    {"waist", &Measurements::waist},           {"hip", &Measurements::hip},   {"inside_leg", &Measurements::inside_leg},
-    {"arm", &Measurements::arm},               {"neck_base", &Measurements::neck_base}};
+constexpr MeasurementField measurement_fields[] = {{"height", &Measurements::height},
+                                                   {"bust", &Measurements::bust},
+                                                   {"under_bust", &Measurements::under_bust},
+                                                   {"waist", &Measurements::waist},
+                                                   {"hip", &Measurements::hip},
+                                                   {"inside_leg", &Measurements::inside_leg},
+                                                   {"arm", &Measurements::arm},
+                                                   {"neck_base", &Measurements::neck_base}};
 
 std::string lower_extension(const std::string& path) {
   std::string e = std::filesystem::path(path).extension().string();
@@ -30,10 +34,14 @@ std::string lower_extension(const std::string& path) {
 /// Measurements in millimetres from {"sex": "woman", "height": 1720, ...}.
 std::optional<Error> read_measurements(const std::string& path, Measurements& m) {
   std::ifstream in(path);
-  if (!in) return Error{Cause::missing, "MISSING", path + ": the file cannot be read", "check the path given to --mannequin", "mannequin"};
+  if (!in)
+    return Error{Cause::missing, "MISSING", path + ": the file cannot be read", "check the path given to --mannequin",
+                 "mannequin"};
   const auto broken = [&](const std::string& what) {
-    return Error{Cause::unusable, "MEASUREMENTS", path + ": " + what,
-                 "give \"sex\" and any of height, bust, under_bust, waist, hip, inside_leg, arm, neck_base in millimetres", "mannequin"};
+    return Error{
+        Cause::unusable, "MEASUREMENTS", path + ": " + what,
+        "give \"sex\" and any of height, bust, under_bust, waist, hip, inside_leg, arm, neck_base in millimetres",
+        "mannequin"};
   };
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object()) return broken("not a JSON object");
@@ -59,9 +67,25 @@ void PluginOptions::add_to(CLI::App& app) {
   app.add_option("--plugin-dir", folders, "Folder of plugins to load before the built-in ones")->group("Plugins");
 }
 
+PluginSearch PluginOptions::search() const {
+  PluginSearch search;
+  search.files.assign(files.begin(), files.end());
+  search.folders.assign(folders.begin(), folders.end());
+  return search;
+}
+
+Result<PluginRegistry> PluginOptions::load() const {
+  PluginRegistry registry = PluginRegistry::load(search());
+  if (auto problem = registry.problem()) return *problem;
+  return registry;
+}
+
 void MannequinOptions::add_to(CLI::App& app) {
-  app.add_option("--mannequin", file, "Watertight OBJ, GLB or PLY body, or a JSON file of measurements [mm]")->group("Mannequin");
-  app.add_option("--sex", sex, "Built-in body: woman or man")->check(CLI::IsMember({"woman", "man"}))->group("Mannequin");
+  app.add_option("--mannequin", file, "Watertight OBJ, GLB or PLY body, or a JSON file of measurements [mm]")
+      ->group("Mannequin");
+  app.add_option("--sex", sex, "Built-in body: woman or man")
+      ->check(CLI::IsMember({"woman", "man"}))
+      ->group("Mannequin");
   millimetres.clear();
   for (const auto& f : measurement_fields) millimetres.emplace_back(f.name, std::nullopt);
   for (auto& [name, value] : millimetres) {
@@ -75,9 +99,11 @@ Result<std::shared_ptr<const Body>> MannequinOptions::make_body() const {
   auto body = std::make_shared<Body>();
   Measurements m;
   const bool measured = file.empty() || lower_extension(file) == ".json";
-  const bool flags = !sex.empty() || std::any_of(millimetres.begin(), millimetres.end(), [](const auto& v) { return v.second.has_value(); });
+  const bool flags = !sex.empty() || std::any_of(millimetres.begin(), millimetres.end(),
+                                                 [](const auto& v) { return v.second.has_value(); });
   if (!measured && flags)
-    return Error{Cause::usage, "USAGE", file + ": a mesh has its own measurements", "leave out --sex and the --...-mm flags, or --mannequin", "mannequin"};
+    return Error{Cause::usage, "USAGE", file + ": a mesh has its own measurements",
+                 "leave out --sex and the --...-mm flags, or --mannequin", "mannequin"};
   if (measured) {
     if (!file.empty())
       if (auto e = read_measurements(file, m)) return *e;
@@ -109,19 +135,25 @@ void JobOptions::apply(ConvertRequest& request) const {
   request.version = VITRINE_VERSION;
 }
 
-std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment, ConvertRequest& request) {
-  const GarmentTemplate* found = registry.find_garment(garment);
-  if (!found) {
-    std::string known;
-    for (const GarmentTemplate& g : registry.garments()) known += (known.empty() ? "" : ", ") + g.id;
-    std::string message = "no plugin supplies the garment \"" + garment + "\"";
+std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment,
+                                    const std::string& neckline, ConvertRequest& request) {
+  const auto unknown = [&](const char* code, const char* kind, const std::string& id, const auto& known,
+                           std::string choices) {
+    for (const auto& k : known) choices += (choices.empty() ? "" : ", ") + k.id;
+    std::string message = std::string("no plugin supplies the ") + kind + " \"" + id + "\"";
     if (!registry.rejected().empty())
-      message += " (" + std::to_string(registry.rejected().size()) + " plugin files were refused: see vitrine plugin list)";
-    return Error{Cause::plugin, "UNKNOWN_GARMENT", message,
-                 known.empty() ? "no garment plugin was found: give --plugin-dir" : "choose one of: " + known, "request"};
-  }
+      message +=
+          " (" + std::to_string(registry.rejected().size()) + " plugin files were refused: see vitrine plugin list)";
+    return Error{Cause::plugin, code, message,
+                 choices.empty() ? "no plugin was found: give --plugin-dir" : "choose one of: " + choices, ""};
+  };
+  const GarmentTemplate* found = registry.find_garment(garment);
+  if (!found) return unknown("UNKNOWN_GARMENT", "garment", garment, registry.garments(), "");
+  if (neckline != "auto" && !registry.find_neckline(neckline))
+    return unknown("UNKNOWN_NECKLINE", "neckline", neckline, registry.necklines(), "auto");
   request.garment = *found;
-  request.necklines.assign(registry.necklines().begin(), registry.necklines().end());
+  request.neckline = neckline;
+  request.necklines = registry.necklines();
   return std::nullopt;
 }
 

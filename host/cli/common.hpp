@@ -16,7 +16,9 @@ struct PluginOptions {
   std::vector<std::string> files;
   std::vector<std::string> folders;
   void add_to(CLI::App& app);
-  PluginRegistry load() const;
+  /// Error: a plugin that the user named was refused, or two supply the same id.
+  Result<PluginRegistry> load() const;
+  PluginSearch search() const;
 };
 
 /// The mannequin as asked for: a mesh or measurements file, or single measurements.
@@ -39,8 +41,9 @@ struct JobOptions {
   void apply(ConvertRequest& request) const;
 };
 
-/// Adds to `request` what the registry knows: the garment's template and all necklines.
-std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment, ConvertRequest& request);
+/// Adds to `request` what the registry knows: the garment's template and all necklines; `neckline` is "auto" or an id.
+std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment,
+                                    const std::string& neckline, ConvertRequest& request);
 
 /// Prints "vitrine: message / remedy" to standard error and returns the exit code.
 int fail(const Error& error);

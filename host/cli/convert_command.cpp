@@ -11,25 +11,23 @@ struct ConvertArguments {
   MannequinOptions mannequin;
   JobOptions job;
   ConvertRequest request;
-  std::string garment, out;
+  std::string garment, neckline = "auto", out;
   double chest_cm = 0, length_cm = 0;
 };
 
 int run_convert(const ConvertArguments& arguments) {
   ConvertRequest request = arguments.request;
   if (request.back.empty() && !request.mirror_back)
-    return fail({Cause::usage, "USAGE", "a back photo is missing", "give --back FILE, or --mirror-back when the shop has none", ""});
+    return fail({Cause::usage, "USAGE", "a back photo is missing",
+                 "give --back FILE, or --mirror-back when the shop has none", ""});
   if (!request.back.empty() && request.mirror_back)
     return fail({Cause::usage, "USAGE", "--back and --mirror-back exclude each other", "leave one out", ""});
   if (!request.back_mask.empty() && request.mirror_back)
     return fail({Cause::usage, "USAGE", "--back-mask and --mirror-back exclude each other", "leave one out", ""});
-  const PluginRegistry registry = arguments.plugins.load();
-  if (auto e = choose_garment(registry, arguments.garment, request)) return fail(*e);
-  if (request.neckline != "auto" && !registry.find_neckline(request.neckline)) {
-    std::string known = "auto";
-    for (const NecklineTemplate& n : registry.necklines()) known += ", " + n.id;
-    return fail({Cause::plugin, "UNKNOWN_NECKLINE", "no plugin supplies the neckline \"" + request.neckline + "\"", "choose one of: " + known, ""});
-  }
+  const auto loaded = arguments.plugins.load();
+  if (!loaded) return fail(loaded.error());
+  const PluginRegistry& registry = *loaded;
+  if (auto e = choose_garment(registry, arguments.garment, arguments.neckline, request)) return fail(*e);
   arguments.job.apply(request);
   request.chest = arguments.chest_cm / 100;
   request.length = arguments.length_cm / 100;
@@ -42,25 +40,28 @@ int run_convert(const ConvertArguments& arguments) {
   if (auto e = write_conversion(request, item, arguments.out)) return fail(*e);
   for (const std::string& warning : item.warnings) spdlog::warn("warning: {}", warning);
   if (item.error) return fail(*item.error);
-  spdlog::info("{} as {}: residual {:.1e}, seam gap {:.2f} mm, penetration {:.2f} mm", arguments.out, request.garment.id,
-               item.drape.residual, item.drape.seam_gap_mm_max, item.drape.penetration_mm_max);
+  spdlog::info("{} as {}: residual {:.1e}, seam gap {:.2f} mm, penetration {:.2f} mm", arguments.out,
+               request.garment.id, item.drape.residual, item.drape.seam_gap_mm_max, item.drape.penetration_mm_max);
   return 0;
 }
 
 }  // namespace
 
 void add_convert(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("convert", "One item: two photos to garment.glb, dressed.glb, preview.png, report.json");
+  auto* command =
+      app.add_subcommand("convert", "One item: two photos to garment.glb, dressed.glb, preview.png, report.json");
   auto a = std::make_shared<ConvertArguments>();
   command->add_option("--front", a->request.front, "Front photo")->required();
   command->add_option("--back", a->request.back, "Back photo");
   command->add_flag("--mirror-back", a->request.mirror_back, "Make the back from the mirrored front silhouette");
   command->add_option("--garment", a->garment, "Garment type (vitrine plugin list shows them)")->required();
-  command->add_option("--neckline", a->request.neckline, "auto or the id of a neckline")->capture_default_str();
+  command->add_option("--neckline", a->neckline, "auto or the id of a neckline")->capture_default_str();
   command->add_option("--fabric", a->request.fabric, "One of the garment's fabrics; its first when left out");
-  command->add_option("--front-mask", a->request.front_mask, "8-bit mask: 0 background, 128 inside of the back, 255 garment");
+  command->add_option("--front-mask", a->request.front_mask,
+                      "8-bit mask: 0 background, 128 inside of the back, 255 garment");
   command->add_option("--back-mask", a->request.back_mask, "The same for the back photo");
-  command->add_option("--chest-cm", a->chest_cm, "Flat width, armpit to armpit (skirts: waist), in cm")->check(CLI::Range(5.0, 300.0));
+  command->add_option("--chest-cm", a->chest_cm, "Flat width, armpit to armpit (skirts: waist), in cm")
+      ->check(CLI::Range(5.0, 300.0));
   command->add_option("--length-cm", a->length_cm, "Flat length from top to hem, in cm")->check(CLI::Range(5.0, 300.0));
   command->add_option("--name", a->request.name, "Name or SKU, kept in the files")->capture_default_str();
   command->add_option("--out", a->out, "Output folder")->required();

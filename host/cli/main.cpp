@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 
-  CLI::App app("Garment photos to a 3D show room: a front and a back photo become a textured garment on a mannequin.", "vitrine");
+  CLI::App app("Garment photos to a 3D show room: a front and a back photo become a textured garment on a mannequin.",
+               "vitrine");
   app.set_version_flag("--version", std::string("vitrine ") + VITRINE_VERSION);
   app.require_subcommand(1);
   app.footer(
@@ -45,8 +46,10 @@ int main(int argc, char** argv) {
     app.exit(e);
     return static_cast<int>(Cause::usage);
   } catch (const std::bad_alloc&) {
-    return cli::fail({Cause::internal, "OUT_OF_MEMORY", "the machine's memory does not suffice", "use smaller photos or a lower --quality", ""});
+    return cli::fail({Cause::internal, "OUT_OF_MEMORY", "the machine's memory does not suffice",
+                      "use smaller photos or a lower --quality", ""});
   } catch (const std::exception& e) {
-    return cli::fail({Cause::internal, "INTERNAL", e.what(), "please report this with the command line and the photos", ""});
+    return cli::fail(
+        {Cause::internal, "INTERNAL", e.what(), "please report this with the command line and the photos", ""});
   }
 }
