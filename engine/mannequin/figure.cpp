@@ -68,7 +68,7 @@ double Figure::distance(const Vec3& p) const {
   const Vec3 q = mirrored(p);
   double d = beyond(trunk_, p, 0.12) ? far_away : trunk_.distance(p);
   if (breast > 1e-4 && p.z() > 0 && std::abs(p.y() - bust_height) < 0.25)
-    d = smooth_min(d, smooth_min(blob(breast_, p), blob(breast_, q), 0.04), 0.05 + 0.5 * breast);
+    d = smooth_min(d, smooth_min(blob(breast_, p), blob(breast_, q), 0.04), 0.05 + 0.9 * breast);
   if (p.z() < 0.05 && std::abs(p.y() - hip_height) < 0.25)
     d = smooth_min(d, smooth_min(blob(seat_, p), blob(seat_, q), 0.05), 0.06);
   if (p.y() < hip_height + 0.2) {

@@ -78,7 +78,7 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
   Section hip = thigh;
   hip.s = hip_height;
   hip.a = 0.84 * thigh.a;
-  hip.x = std::max(hip_half_ - 0.001 * h - hip.a, 0.3 * hip_half_);
+  hip.x = std::max(hip_half_ + 0.002 * h - hip.a, 0.3 * hip_half_);
   hip.front *= 0.90;
   hip.back *= 0.90;
   s.push_back(hip);
@@ -186,9 +186,9 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   }
   hand_ = Loft(g, wrist, along, thin, wide, 0.006, 0.005);
   thumb_.a = wrist + 0.14 * hand * along + 0.45 * palm * wide;
-  thumb_.b = wrist + 0.54 * hand * along + 1.45 * palm * wide - 0.10 * hand * thin;
-  thumb_.ra = 0.26 * palm;
-  thumb_.rb = 0.20 * palm;
+  thumb_.b = wrist + 0.56 * hand * along + 1.18 * palm * wide - 0.10 * hand * thin;
+  thumb_.ra = 0.30 * palm;
+  thumb_.rb = 0.24 * palm;
 
   // Where the arm's lower edge runs into the chest's side.
   const double down = (chest_half_ - inner(angle) + (y - bust_height) * std::tan(angle)) / std::tan(angle);
@@ -198,9 +198,9 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   // The girdle carries the slope from the side of the neck to the acromion.
   const double neck_half = m.neck_base / (2 * pi);
   girdle_.ra = 0.026 * h;
-  girdle_.rb = 0.80 * shoulder;
+  girdle_.rb = 0.97 * shoulder;
   girdle_.a = Vec3(0.6 * neck_half, neck_base.y() - 0.003 * h - girdle_.ra, -0.006 * h);
-  girdle_.b = arm_root + Vec3(-0.2 * shoulder, 0, 0);
+  girdle_.b = arm_root + Vec3(-0.15 * shoulder, 0, 0);
 }
 
 }  // namespace vitrine::body

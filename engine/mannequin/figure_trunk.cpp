@@ -72,23 +72,24 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   // Like briefs: below the hips the trunk draws in early and the thighs take over the outline.
   share_of_hip(y0, 0.14, 0.34, 0.44);
   share_of_hip(y0 + 0.35 * (y1 - y0), 0.42, 0.62, 0.74);
-  share_of_hip(y0 + 0.70 * (y1 - y0), 0.70, 0.84, 0.92);
-  share_of_hip(y1, 0.90, 0.96, 0.99);
+  share_of_hip(y0 + 0.70 * (y1 - y0), 0.64, 0.82, 0.90);
+  share_of_hip(y1, 0.86, 0.95, 0.98);
   // Differences of girth, not ratios, run from landmark to landmark; the S-curves keep hips round and the waist soft.
   const auto between = [&](double t, double share) {
     const double y = y1 + t * (y2 - y1);
     const double girth = u.waist + share * (u.hip - u.waist);
     const double w = 1 - t;
-    s.push_back(sized(y, girth, ratio_waist + w * (ratio_hip - ratio_waist), (0.020 - 0.016 * w) * h,
+    s.push_back(sized(y, girth, ratio_waist + w * (ratio_hip - ratio_waist),
+                      ((woman_ ? 0.020 : 0.012) - (woman_ ? 0.016 : 0.008) * w) * h,
                       0.52 + belly * (1 - w * w) - 0.06 * w * w, 2.3, 2.35));
   };
   between(0.25, 0.95);
   between(0.50, 0.68);
   between(0.75, 0.27);
-  s.push_back(sized(y2, u.waist, ratio_waist, 0.020 * h, 0.52 + belly, 2.25, 2.4));
+  s.push_back(sized(y2, u.waist, ratio_waist, (woman_ ? 0.020 : 0.012) * h, 0.52 + belly, 2.25, 2.4));
   s.push_back(sized(y2 + 0.5 * (y3 - y2), u.waist + 0.48 * (u.under_bust - u.waist), 0.5 * (ratio_waist + ratio_ribs),
-                    0.021 * h, 0.52 + 0.9 * belly, 2.3, 2.5));
-  s.push_back(sized(y3, u.under_bust, ratio_ribs, 0.020 * h, 0.52 + 0.75 * belly, 2.35, 2.6));
+                    (woman_ ? 0.021 : 0.012) * h, 0.52 + 0.9 * belly, 2.3, 2.5));
+  s.push_back(sized(y3, u.under_bust, ratio_ribs, (woman_ ? 0.020 : 0.013) * h, 0.52 + 0.75 * belly, 2.35, 2.6));
   const Section chest = sized(y4, chest_girth, ratio_chest, 0.014 * h, 0.50 + 0.75 * belly, woman_ ? 2.3 : 2.5, 2.6);
   s.push_back(chest);
   chest_half_ = chest.a;
@@ -115,15 +116,15 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   trunk_ = Loft(s, Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), 0.010 * h, 0.012 * h);
 
   // On a man the same shape, shallow and broad, makes the chest muscles.
-  breast = woman_ ? std::max(0.0, 0.26 * u.bust / (1 + std::max(u.bust, 0.0) / 0.45)) : 0.005 * h;
+  breast = woman_ ? std::max(0.0, 0.26 * u.bust / (1 + std::max(u.bust, 0.0) / 0.30)) : 0.003 * h;
   bust_apart = (woman_ ? 0.53 : 0.48) * chest.a;
   const double share = bust_apart / chest.a;
   const double wall = chest.z + chest.front * std::pow(1 - std::pow(share, chest.n_front), 1 / chest.n_front);
   const double round = 0.42 * chest.a + 0.10 * breast;
   breast_.centre = Vec3(bust_apart, y4 - 0.002 * h, wall - 0.016 * h);
   breast_.x = round * (woman_ ? 1.0 : 1.05);
-  breast_.up = round * (woman_ ? 1.6 : 1.1);
-  breast_.down = woman_ ? std::min(0.90 * round, 0.036 * h) : 0.035 * h;
+  breast_.up = std::min(round * (woman_ ? 1.7 : 1.2), 0.058 * h);
+  breast_.down = woman_ ? std::min(0.90 * round, 0.036 * h) : 0.055 * h;
   breast_.z = 0.016 * h + breast;
 
   const double behind = hip.z - hip.back;

@@ -22,7 +22,7 @@ struct Measurements {
 
 struct MannequinOptions {
   double surface_spacing = 0.019;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
-  double arm_angle_deg = 42;       ///< [degree] of the arms from the vertical (A-pose)
+  double arm_angle_deg = 42;  ///< [degree] of the arms from the vertical (A-pose); more where a wide chest needs it
 };
 
 struct VoxelOptions {
@@ -39,7 +39,7 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
 /// NOT_WATERTIGHT, NOT_A_BODY).
 Result<Mannequin> import_mannequin(const std::string& path);
 
-/// Signed distance on voxels around the body (paper III.C). Errors (65): NOT_WATERTIGHT, TOO_LARGE.
+/// Signed distance on voxels around the body (paper III.C). Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
 Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options = {});
 
 }  // namespace vitrine
