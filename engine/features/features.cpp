@@ -268,8 +268,9 @@ Outline settle_neckline(const Work& work, cv::Mat& panel, Outline outline, std::
   if (forced)
     features.neckline.id = forced->id;
   else if (!work.necklines.empty())
-    features.neckline.id =
-        work.necklines[choose_neckline(work.necklines, features.neckline.ratio, tip_sharpness(edge))].id;
+    features.neckline.id = work.necklines[choose_neckline(work.necklines, choice_ratio(features.neckline.ratio, edge),
+                                                          tip_sharpness(edge))]
+                               .id;
   return outline;
 }
 

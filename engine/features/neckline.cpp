@@ -321,6 +321,19 @@ double tip_sharpness(const std::vector<Vec2>& edge) {
   return 0.5 * (rise(-1) + rise(1));
 }
 
+double choice_ratio(double ratio, const std::vector<Vec2>& edge) {
+  if (edge.size() < 3) return ratio;
+  const Vec2 along = edge.back() - edge.front();
+  double depth = 0;
+  for (const Vec2& p : edge) {
+    const Vec2 q = p - edge.front();
+    depth = std::max(depth, (along.x() * q.y() - along.y() * q.x()) / along.squaredNorm());
+  }
+  constexpr double kArc = 1 - std::numbers::pi / 4;  // half ellipse: foreground share of its box
+  const double trust = std::clamp((depth - 0.05) / 0.25, 0.0, 1.0);
+  return trust * ratio + (1 - trust) * kArc / (1 - kArc);
+}
+
 int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness) {
   // Curved sides pull a V's ratio down and wrinkles push a U's up: near a border of two ranges the tip decides.
   constexpr double kUnsure = 1.5;
@@ -344,8 +357,9 @@ int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, d
   double closest = miss_of(necklines[best]);
   for (int i = 0; i < static_cast<int>(necklines.size()); ++i) {
     const NecklineTemplate& n = necklines[i];
-    if (ratio * kUnsure < n.ratio_min || ratio > n.ratio_max * kUnsure) continue;
-    const double miss = miss_of(n);
+    if (i == best || ratio <= 0 || ratio * kUnsure < n.ratio_min || ratio > n.ratio_max * kUnsure) continue;
+    const double over = std::max(1.0, std::max(n.ratio_min / ratio, ratio / n.ratio_max));
+    const double miss = miss_of(n) + 2 * std::log(over);  // the further over the border, the clearer the tip has to be
     if (miss < closest) {
       closest = miss;
       choice = i;

@@ -28,6 +28,10 @@ double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, Vec2
 /// half ellipse, 0 for a square neck. `edge` runs from neck point to neck point.
 double tip_sharpness(const std::vector<Vec2>& edge);
 
+/// The ratio to choose by: in a neckline much shallower than wide (a back's) a pixel of roughness moves the ratio
+/// across its whole range, so that it is drawn to that of a plain arc (a half ellipse).
+double choice_ratio(double ratio, const std::vector<Vec2>& edge);
+
 /// Neckline whose ratio range holds `ratio`, else the one with the nearest range; close to the border of two ranges the
 /// one whose profile is as pointed as the photo's neckline. `necklines` is not empty.
 int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness);
