@@ -30,13 +30,13 @@ struct VoxelOptions {
   double margin = 0.08;    ///< [m] kept free around the body
 };
 
-/// Built-in parametric body. Errors (65): IMPLAUSIBLE_MEASUREMENTS naming the measurement and the range that would
-/// work.
+/// Built-in parametric body. Errors: IMPLAUSIBLE_MEASUREMENTS (65) naming the measurement and the range that would
+/// work, BAD_OPTION (64).
 Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options = {});
 
 /// Any watertight OBJ, GLB or PLY in metres, +Y up (guessed: a height of 140-220 is centimetres, 1400-2200
-/// millimetres); landmarks and girths are found on the mesh. Errors: missing (66), unusable (65: NOT_A_MESH,
-/// NOT_WATERTIGHT, NOT_A_BODY).
+/// millimetres); landmarks and girths are found on the mesh. Errors: MISSING_FILE (66); NOT_A_MESH,
+/// NOT_WATERTIGHT, NOT_A_BODY, TOO_LARGE (65).
 Result<Mannequin> import_mannequin(const std::string& path);
 
 /// Signed distance on voxels around the body (paper III.C). Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
