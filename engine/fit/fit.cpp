@@ -53,7 +53,7 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
 
     std::vector<LimbBend> bends;
     for (const TemplateLimb& limb : garment.limbs) {
-      auto bend = LimbBend::make(limb, panel, mannequin, shift);
+      auto bend = LimbBend::make(limb, panel, mannequin, field, shift, 0.5 * options.clearance);
       if (!bend) return bend.error();
       bends.push_back(*std::move(bend));
     }
@@ -64,10 +64,11 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
     nodes.reserve(mesh.nodes.size());
     for (const Vec2& rest : mesh.nodes) {
       const Vec2 placed = rest + shift;
-      Vec2 xy = placed;
-      // The bends of several limbs each act on their own region; where two overlap their movements add.
-      for (const LimbBend& bend : bends) xy += bend(placed) - placed;
-      Vec3 q(xy.x(), xy.y(), sheet(xy.x(), xy.y()) + outwards * options.clearance);
+      Vec3 q(placed.x(), placed.y(), sheet(placed.x(), placed.y()) + outwards * options.clearance);
+      for (const LimbBend& bend : bends) {
+        const double weight = bend.weight(placed);
+        if (weight > 0) q += weight * (bend.on_limb(placed, outwards) - q);
+      }
       // The sheet clears the body's voxels; what is still too near (a coarse grid's edge) moves on, to its own side.
       for (int i = 0; i < 64 && field.distance(q) < 0.5 * options.clearance; ++i) q.z() += outwards * field.spacing;
       nodes.push_back(q);

@@ -24,19 +24,25 @@ std::vector<Vec2> along_outline(const Panel& panel, int from, int to, int avoid)
   return {};
 }
 
-/// `count` + 1 points at equal arc length.
-std::vector<Vec2> evenly(const std::vector<Vec2>& line, int count) {
+/// `count` + 1 points over the last `length` [m] of the line, at equal steps.
+std::vector<Vec2> last_stretch(const std::vector<Vec2>& line, double length, int count) {
   std::vector<double> arc{0};
   for (std::size_t i = 1; i < line.size(); ++i) arc.push_back(arc.back() + (line[i] - line[i - 1]).norm());
   std::vector<Vec2> even;
   std::size_t k = 1;
   for (int i = 0; i <= count; ++i) {
-    const double s = arc.back() * i / count;
+    const double s = arc.back() - length * (count - i) / count;
     while (k + 1 < line.size() && arc[k] < s) ++k;
     const double piece = std::max(1e-12, arc[k] - arc[k - 1]);
     even.push_back(line[k - 1] + (line[k] - line[k - 1]) * std::clamp((s - arc[k - 1]) / piece, 0.0, 1.0));
   }
   return even;
+}
+
+double length_of(const std::vector<Vec2>& line) {
+  double sum = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
+  return sum;
 }
 
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -56,6 +62,8 @@ bool belongs(const Vec2& p, const std::vector<Vec2>& polygon) {
   }
   return inside;
 }
+
+constexpr int limb_steps = 10;
 
 Vec2 left_of(const Vec2& t) {
   return {-t.y(), t.x()};
@@ -94,15 +102,15 @@ void Polyline::project(const Vec2& p, double& s, double& offset) const {
 }
 
 Result<LimbBend> LimbBend::make(const TemplateLimb& limb, const Panel& panel, const Mannequin& mannequin,
-                                const Vec2& shift) {
-  std::vector<Vec2> chain;
+                                const DistanceField& field, const Vec2& shift, double clearance) {
+  std::vector<Vec3> chain;
   for (const std::string& name : limb.chain) {
     const auto found = mannequin.landmarks.find(name);
     if (found == mannequin.landmarks.end())
       return Error{Cause::unusable, "NO_LANDMARK",
                    "the mannequin has no landmark \"" + name + "\" that limb \"" + limb.name + "\" follows",
                    "use another mannequin, or correct the limb's chain in the garment plugin", "fit"};
-    chain.push_back(found->second.head<2>());
+    chain.push_back(found->second);
   }
   const int root_a = panel.corner[limb.root_a], root_b = panel.corner[limb.root_b];
   const int tip_a = panel.corner[limb.tip_a], tip_b = panel.corner[limb.tip_b];
@@ -111,32 +119,96 @@ Result<LimbBend> LimbBend::make(const TemplateLimb& limb, const Panel& panel, co
   if (chain.size() < 2 || side_a.empty() || side_b.empty())
     return Error{Cause::plugin, "BAD_LIMB", "limb \"" + limb.name + "\" does not run along the panel's outline",
                  "correct the limb's root and tip features in the garment plugin", "fit"};
-  constexpr int pieces = 10;
-  const auto even_a = evenly(side_a, pieces), even_b = evenly(side_b, pieces);
-  std::vector<Vec2> middle, region;
-  for (int i = 0; i <= pieces; ++i) middle.push_back((even_a[i] + even_b[i]) / 2 + shift);
-  for (const Vec2& q : side_a) region.push_back(q + shift);
-  const auto cuff = along_outline(panel, tip_a, tip_b, root_b);
-  for (std::size_t i = 1; i + 1 < cuff.size(); ++i) region.push_back(cuff[i] + shift);
-  for (std::size_t i = side_b.size(); i-- > 0;) region.push_back(side_b[i] + shift);
-  Polyline flat(std::move(middle)), body(std::move(chain));
-  double start = 0, ignored = 0;
-  Vec2 tangent;
-  body.project(flat.at(0, tangent), start, ignored);
-  const Vec2 a = region.front(), b = region.back();
-  const double blend = std::clamp(0.5 * (a - b).norm(), 0.02, 0.12);
-  return LimbBend(std::move(flat), std::move(body), std::move(region), a, b, std::max(0.0, start), blend);
+
+  LimbBend bend;
+  bend.clearance_ = clearance;
+  // The sides are paired by their distance from the tip: a sleeve's upper side is longer by its cap, which belongs to
+  // the shoulder. The middle line runs on straight where only one side is left.
+  const double paired = std::min(length_of(side_a), length_of(side_b));
+  const auto even_a = last_stretch(side_a, paired, limb_steps), even_b = last_stretch(side_b, paired, limb_steps);
+  std::vector<Vec2> middle;
+  for (int i = 0; i <= limb_steps; ++i) {
+    middle.push_back((even_a[i] + even_b[i]) / 2 + shift);
+    bend.half_width_.push_back(std::max(0.01, (even_a[i] - even_b[i]).norm() / 2));
+  }
+  bend.flat_ = Polyline(middle);
+  for (const Vec2& q : side_a) bend.region_.push_back(q + shift);
+  const auto tip = along_outline(panel, tip_a, tip_b, root_b);
+  for (std::size_t i = 1; i + 1 < tip.size(); ++i) bend.region_.push_back(tip[i] + shift);
+  for (std::size_t i = side_b.size(); i-- > 0;) bend.region_.push_back(side_b[i] + shift);
+  bend.root_a_ = bend.region_.front();
+  bend.root_b_ = bend.region_.back();
+  bend.blend_ = std::clamp(0.5 * (bend.root_a_ - bend.root_b_).norm(), 0.02, 0.12);
+  bend.find_rings(field, chain);
+  double ignored = 0;
+  bend.body_.project(middle.front(), bend.body_start_, ignored);
+  bend.body_start_ = std::max(0.0, bend.body_start_);
+  return bend;
 }
 
-Vec2 LimbBend::operator()(const Vec2& placed) const {
-  if (!belongs(placed, region_)) return placed;
+/// Landmarks lie on the skin or on a joint; the limb's true middle is where the field is deepest across it. Near the
+/// root, where the limb runs into the trunk, the middle is carried on from the free part.
+void LimbBend::find_rings(const DistanceField& field, const std::vector<Vec3>& chain) {
+  std::vector<double> arc{0};
+  for (std::size_t i = 1; i < chain.size(); ++i) arc.push_back(arc.back() + (chain[i] - chain[i - 1]).norm());
+  std::vector<Vec3> offset;
+  for (int i = 0; i <= limb_steps; ++i) {
+    const double s = arc.back() * i / limb_steps;
+    std::size_t k = 1;
+    while (k + 1 < chain.size() && arc[k] < s) ++k;
+    const Vec3 along = (chain[k] - chain[k - 1]) / std::max(1e-12, arc[k] - arc[k - 1]);
+    const Vec3 start = chain[k - 1] + along * (s - arc[k - 1]);
+    Vec3 centre = start;
+    for (int step = 0; step < 40; ++step) {
+      Vec3 gradient;
+      const double depth = -field.distance(centre, gradient);
+      Vec3 inwards = -gradient + along * along.dot(gradient);
+      if (inwards.norm() < 0.1) break;
+      centre += inwards.normalized() * std::max(0.0005, 0.05 * std::abs(depth));
+      if ((centre - start).norm() > 0.05) break;  // no limb is thicker than that off its own landmarks: it is the trunk
+    }
+    rings_.push_back({centre, std::max(0.0, -field.distance(centre))});
+    offset.push_back(centre - start);
+  }
+  const int free_from = limb_steps * 2 / 5;
+  for (int i = 0; i < free_from; ++i) {
+    rings_[i].centre += offset[free_from] - offset[i];
+    rings_[i].radius = rings_[free_from].radius;
+  }
+  std::vector<Vec2> line;
+  for (const Ring& ring : rings_) line.push_back(ring.centre.head<2>());
+  body_ = Polyline(line);
+}
+
+double LimbBend::weight(const Vec2& placed) const {
+  if (!belongs(placed, region_)) return 0;
   const double t = std::clamp(distance_to_segment(placed, root_a_, root_b_) / blend_, 0.0, 1.0);
-  const double weight = t * t * (3 - 2 * t);
+  return t * t * (3 - 2 * t);
+}
+
+Vec3 LimbBend::on_limb(const Vec2& placed, double outwards) const {
   double s = 0, offset = 0;
   flat_.project(placed, s, offset);
+  const double step = std::clamp(s / flat_.length(), 0.0, 1.0) * limb_steps;
+  const int i = std::min(limb_steps - 1, static_cast<int>(step));
+  const double half = half_width_[i] + (half_width_[i + 1] - half_width_[i]) * (step - i);
+
+  // A sleeve longer than the arm is pushed up to the wrist, as a wearer would: it closes there and not around the hand.
+  const double room = body_.length() + 0.02 - body_start_;
+  const double on_body = body_start_ + (s > 0 ? s * std::min(1.0, room / flat_.length()) : s);
   Vec2 tangent;
-  const Vec2 on_body = body_.at(body_start_ + s, tangent);
-  return placed + weight * (on_body + offset * left_of(tangent) - placed);
+  const Vec2 middle = body_.at(on_body, tangent);
+  const double ring = std::clamp(on_body / body_.length(), 0.0, 1.0) * limb_steps;
+  const int r = std::min(limb_steps - 1, static_cast<int>(ring));
+  const double a = ring - r;
+  const double z = rings_[r].centre.z() + a * (rings_[r + 1].centre.z() - rings_[r].centre.z());
+  const double thick = rings_[r].radius + a * (rings_[r + 1].radius - rings_[r].radius);
+
+  // Half the tube's girth is the panel's width; a limb too thick for it stretches the tube.
+  const double radius = std::max(2 * half / M_PI, 1.15 * thick + clearance_);
+  const double angle = std::clamp(offset / half, -1.0, 1.0) * M_PI / 2;
+  const Vec2 xy = middle + radius * std::sin(angle) * left_of(tangent);
+  return {xy.x(), xy.y(), z + outwards * radius * std::cos(angle)};
 }
 
 }  // namespace vitrine

@@ -25,31 +25,35 @@ class Polyline {
 };
 
 /// Turns the part of a panel that belongs to a limb (a sleeve, a trouser leg) from its flat middle line to the body's
-/// chain of landmarks.
+/// limb, and lays it as half a tube around it, so that its seams start next to each other and on either side of the
+/// limb.
 class LimbBend {
  public:
-  /// `shift` takes panel coordinates to the body's x/y plane. Error: NO_LANDMARK.
+  /// `shift` takes panel coordinates to the body's x/y plane; `clearance` [m] from the limb. Error: NO_LANDMARK.
   static Result<LimbBend> make(const TemplateLimb& limb, const Panel& panel, const Mannequin& mannequin,
-                               const Vec2& shift);
+                               const DistanceField& field, const Vec2& shift, double clearance);
 
-  /// Where a placed (shifted) panel point goes; points that belong to the trunk stay.
-  Vec2 operator()(const Vec2& placed) const;
+  /// How much a placed (shifted) panel point belongs to the limb: 0 on the trunk, rising to 1 behind the root line.
+  double weight(const Vec2& placed) const;
+  /// Where it goes on the limb's half tube; outwards is +1 for a front panel, -1 for a back panel.
+  Vec3 on_limb(const Vec2& placed, double outwards) const;
 
  private:
-  LimbBend(Polyline flat, Polyline body, std::vector<Vec2> region, Vec2 root_a, Vec2 root_b, double body_start,
-           double blend)
-      : flat_(std::move(flat)),
-        body_(std::move(body)),
-        region_(std::move(region)),
-        root_a_(std::move(root_a)),
-        root_b_(std::move(root_b)),
-        body_start_(body_start),
-        blend_(blend) {}
-  Polyline flat_, body_;
-  std::vector<Vec2> region_;  // the limb's part of the placed panel: both sides, the tip, closed by the root line
-  Vec2 root_a_, root_b_;
-  double body_start_;  // [m] arc length on the body's chain that the flat root line comes to lie at
-  double blend_;       // [m] width of the soft hinge behind the root line
+  struct Ring {
+    Vec3 centre;
+    double radius;  // [m] of the limb itself
+  };
+  LimbBend() : flat_({Vec2::Zero(), Vec2::UnitX()}), body_({Vec2::Zero(), Vec2::UnitX()}) {}
+  void find_rings(const DistanceField& field, const std::vector<Vec3>& chain);
+
+  Polyline flat_, body_;            // middle lines; body_ in the x/y plane
+  std::vector<double> half_width_;  // [m] of the flat limb, at equal steps from root to tip
+  std::vector<Ring> rings_;         // at equal steps along body_
+  std::vector<Vec2> region_;        // the limb's part of the placed panel, closed by the root line
+  Vec2 root_a_ = Vec2::Zero(), root_b_ = Vec2::Zero();
+  double body_start_ = 0;  // [m] arc length on the body's chain that the flat root line comes to lie at
+  double blend_ = 0;       // [m] width of the soft hinge behind the root line
+  double clearance_ = 0;
 };
 
 }  // namespace vitrine

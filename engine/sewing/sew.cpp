@@ -71,6 +71,7 @@ Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, cons
   const std::vector<double> gap = gaps(pattern, scatter(cloth, nodes));
   for (std::size_t s = 0; s < gap.size(); ++s) {
     out.met.push_back(weld[s] || gap[s] < meet);
+    if (weld[s]) continue;
     if (out.met.back()) {
       out.gap_met = std::max(out.gap_met, gap[s]);
     } else {

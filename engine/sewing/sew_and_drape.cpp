@@ -16,7 +16,9 @@ namespace {
 
 using namespace sewing;
 
-constexpr double gap_bar = 0.002;          // [m] partners must be at least this close before they are welded
+constexpr double gap_bar = 0.002;  // [m] partners must be at least this close before they are welded
+constexpr double near_by = 0.03;   // [m] partners that start closer than this are sewn first
+constexpr int sewing_rounds = 4;
 constexpr double strain_bar = 0.35;        // [-] beyond, the garment is another garment
 constexpr double penetration_bar = 0.002;  // [m]
 
@@ -87,24 +89,38 @@ class Tailor {
     return make_contact(cloth, body_, o_.offset, dx, 2 * column_ * dx, k_);
   }
 
-  /// Draws the partners that are not sewn yet together and sews those that meet. What stays open on a coarse mesh,
-  /// whose straight edges make every tube narrower, gets another chance on the finer ones.
+  /// Draws the partners that are not sewn yet together and sews those that meet, in rounds: first the pairs that start
+  /// next to each other (a sleeve laid around its arm closes before the trunk pulls on it), then all; a round that
+  /// sewed some is followed by another, as a seam closes from its sewn end. What stays open on a coarse mesh, whose
+  /// straight edges make every tube narrower, gets another chance on the finer ones.
   bool sew() {
     const Pattern& p = pattern();
-    if (std::find(weld_.begin(), weld_.end(), 0) == weld_.end()) return true;
-    int count = 0;
-    const Nodes nodes = number_nodes(p, weld_, count);
-    const double dx = mean_edge(p);
-    Cloth cloth = build_cloth(p, nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
-    push_out(cloth, body_, o_.offset);
-    Contact contact = contact_for(cloth, dx);
-    const double widest = gap_met_;
-    closing_ = close_seams(cloth, contact, p, nodes, weld_, k_, dx, std::min(gap_bar, std::max(0.001, 0.1 * dx)));
-    gap_met_ = std::max(widest, closing_.gap_met);
-    sewing_iterations_ = closing_.iterations;
-    x_ = scatter(cloth, nodes);
-    weld_ = closing_.met;
-    return closing_.finite;
+    const double dx = mean_edge(p), meet = std::min(gap_bar, std::max(0.001, 0.1 * dx));
+    const std::vector<double> start = gaps(p, x_);
+    for (int round = 0; round < sewing_rounds; ++round) {
+      std::vector<char> left_alone = weld_;
+      if (round == 0)
+        for (std::size_t s = 0; s < start.size(); ++s) left_alone[s] = weld_[s] || start[s] > near_by;
+      if (std::find(left_alone.begin(), left_alone.end(), 0) == left_alone.end()) continue;
+      int count = 0;
+      const Nodes nodes = number_nodes(p, weld_, count);
+      Cloth cloth = build_cloth(p, nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+      push_out(cloth, body_, o_.offset);
+      Contact contact = contact_for(cloth, dx);
+      closing_ = close_seams(cloth, contact, p, nodes, left_alone, k_, dx, meet);
+      gap_met_ = std::max(gap_met_, closing_.gap_met);
+      sewing_iterations_ += closing_.iterations;
+      x_ = scatter(cloth, nodes);
+      if (!closing_.finite) return false;
+      bool sewed = false;
+      for (std::size_t s = 0; s < weld_.size(); ++s) {
+        if (weld_[s] || left_alone[s] || !closing_.met[s]) continue;
+        weld_[s] = 1;
+        sewed = true;
+      }
+      if (round > 0 && (closing_.open == 0 || !sewed)) break;
+    }
+    return true;
   }
 
   void carry_to_finer() {
