@@ -120,6 +120,7 @@ std::string report_json(const ConvertRequest& request, const Conversion& item) {
                   {"seam_gap_mm_max", d.seam_gap_mm_max},
                   {"penetration_mm_max", d.penetration_mm_max},
                   {"strain_p99", d.strain_p99},
+                  {"stretch_p99", d.stretch_p99},
                   {"strain_max", d.strain_max},
                   {"stiffness_cap", d.stiffness_cap},
                   {"energy", d.energy},

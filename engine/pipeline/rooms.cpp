@@ -25,6 +25,18 @@ double polygon_area(const std::vector<Vec2>& p) {
   return std::abs(twice) / 2;
 }
 
+/// Longest edge [m] that still goes round the garment's limbs: a tube of fewer than about ten edges is a prism that its
+/// limb does not fit through.
+double longest_edge(const GarmentTemplate& garment, const Panel& panel) {
+  const auto width = [&](int a, int b) {
+    return (panel.outline[panel.corner[a]] - panel.outline[panel.corner[b]]).norm();
+  };
+  double longest = 1;
+  for (const TemplateLimb& limb : garment.limbs)
+    longest = std::min(longest, (width(limb.root_a, limb.root_b) + width(limb.tip_a, limb.tip_b)) / 2 / 5);
+  return longest;
+}
+
 void name_panel(Rooms::Step& error, const std::string& file) {
   if (error && error->message.find(file) == std::string::npos) error->message = file + ": " + error->message;
 }
@@ -124,9 +136,12 @@ Rooms::Step Rooms::cut_panels() {
                     item_.panels))
     return e;
   const double area = polygon_area(item_.panels.front.outline) + polygon_area(item_.panels.back.outline);
+  const double longest =
+      std::min(longest_edge(request_.garment, item_.panels.front), longest_edge(request_.garment, item_.panels.back));
   for (const int nodes : plan_.level_nodes) {
     // A hexagonal lattice of spacing h spends h^2 sqrt(3)/2 of area on each node.
-    const double edge_length = std::sqrt(area / (nodes * std::sqrt(3.0) / 2));
+    const double edge_length = std::min(longest, std::sqrt(area / (nodes * std::sqrt(3.0) / 2)));
+    if (!levels_.empty() && edge_length > 0.95 * levels_.back().edge_length) continue;  // no finer than the one before
     Panels panels;
     if (auto e =
             keep(make_panels(item_.front_features, item_.back_features, request_.garment, panel_options(edge_length)),
@@ -175,6 +190,7 @@ Rooms::Step Rooms::sew() {
     };
   if (auto e = keep(sew_and_drape(levels_, placed_, item_.fabric, request_.body->field, options), item_.drape))
     return e;
+  if (item_.drape.stretch_p99 > 0.35) item_.warnings.push_back("TIGHT_FIT");
   // Cloth that came close to rest is worth showing; anything worse is marked by the exit code, and still written.
   if (item_.drape.status == "NOT_CONVERGED" && item_.drape.residual <= 1e-2)
     item_.warnings.push_back("RESIDUAL_ABOVE_TARGET");

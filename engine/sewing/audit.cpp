@@ -74,14 +74,19 @@ Strains measure_strain(const Pattern& pattern, const Positions& positions) {
         const auto a = t[e], b = t[(e + 1) % 3];
         const double rest = (m.nodes[a] - m.nodes[b]).norm();
         if (rest < 1e-9) continue;
-        strain.push_back(std::abs((positions[p][a] - positions[p][b]).norm() / rest - 1));
+        strain.push_back((positions[p][a] - positions[p][b]).norm() / rest - 1);
       }
   }
   Strains s;
   if (strain.empty()) return s;
-  std::sort(strain.begin(), strain.end());
+  const auto p99 = [&] {
+    std::sort(strain.begin(), strain.end());
+    return strain[static_cast<std::size_t>(0.99 * static_cast<double>(strain.size() - 1))];
+  };
+  s.stretch_p99 = p99();
+  for (double& e : strain) e = std::abs(e);
+  s.p99 = p99();
   s.most = strain.back();
-  s.p99 = strain[static_cast<std::size_t>(0.99 * static_cast<double>(strain.size() - 1))];
   return s;
 }
 

@@ -19,7 +19,7 @@ using namespace sewing;
 constexpr double gap_bar = 0.002;  // [m] partners must be at least this close before they are welded
 constexpr double near_by = 0.03;   // [m] partners that start closer than this are sewn first
 constexpr int sewing_rounds = 4;
-constexpr double strain_bar = 0.35;        // [-] beyond, the garment is another garment
+constexpr double strain_bar = 1.0;         // [-] jersey and rib bear about double their width; beyond, it would tear
 constexpr double penetration_bar = 0.002;  // [m]
 
 std::string text(const char* format, double a, double b = 0) {
@@ -195,6 +195,7 @@ class Tailor {
     out_.residual = residual_of(cloth, &contact_, mu);
     const Strains strain = measure_strain(pattern(), x_);
     out_.strain_p99 = strain.p99;
+    out_.stretch_p99 = strain.stretch_p99;
     out_.strain_max = strain.most;
     out_.penetration_mm_max = 1000 * measure_penetration(pattern(), x_, body_);
     out_.seam_gap_mm_max = 1000 * std::max(gap_met_, closing_.open > 0 ? closing_.gap_open : 0.0);
@@ -217,12 +218,13 @@ class Tailor {
     } else if (out_.penetration_mm_max > 1000 * penetration_bar) {
       out_.status = "INSIDE_BODY";
       out_.detail = text("The cloth lies up to %.1f mm inside the body.", out_.penetration_mm_max);
-    } else if (out_.strain_p99 > strain_bar) {
+    } else if (out_.stretch_p99 > strain_bar) {
       out_.status = "OVERSTRETCHED";
       out_.detail = text(
-          "One edge in a hundred is stretched or squeezed by more than %.0f %%: the garment is too small "
-          "for this body or its fabric too soft.",
-          100 * out_.strain_p99);
+          "One edge in a hundred is stretched by more than %.0f %%: the garment is too small for this body or its "
+          "fabric "
+          "too soft.",
+          100 * out_.stretch_p99);
     } else if (!(out_.residual <= 1.05 * o_.residual)) {
       out_.status = "NOT_CONVERGED";
       out_.detail = text("The forces are balanced to r = %.2g of the weight, not to %.2g.", out_.residual, o_.residual);

@@ -41,6 +41,7 @@ struct Drape {
   double seam_gap_mm_max = 0;     ///< largest distance of two sewn partners just before they were welded
   double penetration_mm_max = 0;  ///< deepest node or triangle middle inside the body surface
   double strain_p99 = 0;          ///< [-] 99th percentile of |edge length / rest - 1|
+  double stretch_p99 = 0;         ///< [-] 99th percentile of edge length / rest - 1: what decides OVERSTRETCHED
   double strain_max = 0;
   double stiffness_cap = 0;  ///< [N/m] effective limit of k; 0 = not capped
   double energy = 0;         ///< [J]
