@@ -84,7 +84,7 @@ std::optional<Error> set_mirror(const Field& f, const fs::path&, CatalogItem& it
   if (v.empty()) return {};
   if (v != "yes" && v != "no" && v != "true" && v != "false" && v != "1" && v != "0")
     return bad("MANIFEST_VALUE", f.where(), "\"" + f.value.substr(0, 40) + "\" is neither yes nor no",
-               "Write yes (the photo was taken from behind) or no, or leave it empty for yes.");
+               "Write yes (make the back from the front's silhouette) or no, or leave it empty for no.");
   item.mirror_back = v == "yes" || v == "true" || v == "1";
   return {};
 }
@@ -139,6 +139,25 @@ Result<Header> read_header(const std::string& file, const csv::Row& row, std::ve
                             : "The first row must name the columns; sku, garment and front are needed.");
     }
   return header;
+}
+
+/// The back comes from a photo or from the mirrored front: a row must say which, and not both.
+std::optional<Error> check_back(const std::string& where, const Header& header, const CatalogItem& item) {
+  const auto column = [&](const std::string& name) {
+    const auto at = std::find(header.names.begin(), header.names.end(), name);
+    const std::string number = at == header.names.end() ? "" : " " + std::to_string(at - header.names.begin() + 1);
+    return where + ": column" + number + " \"" + name + "\"";
+  };
+  if (item.back.empty() && !item.mirror_back)
+    return bad("MANIFEST_VALUE", column("back"), "there is neither a back photo nor mirror_back",
+               "Name the back photo, or write yes in mirror_back to make the back from the front's silhouette.");
+  if (!item.back.empty() && item.mirror_back)
+    return bad("MANIFEST_VALUE", column("mirror_back"), "the row has a back photo, and mirror_back says to do without",
+               "Leave mirror_back empty to use the photo, or leave back empty.");
+  if (!item.back_mask.empty() && item.mirror_back)
+    return bad("MANIFEST_VALUE", column("back_mask"), "a mask of the back without a back photo",
+               "Leave back_mask empty, or name the back photo and leave mirror_back empty.");
+  return {};
 }
 
 Result<std::string> read_text(const std::string& path) {
@@ -215,6 +234,7 @@ Result<std::vector<CatalogItem>> read_manifest(const std::string& path, std::vec
                    "\"" + field.value + "\" is also the sku of line " + std::to_string(first->second),
                    "Give each row a sku of its own.");
     }
+    if (std::optional<Error> error = check_back(where, header, item)) return *error;
     items.push_back(std::move(item));
   }
   if (!reader.problem().empty())

@@ -33,9 +33,10 @@ struct PhotoSpec {
   double shoulder_drop = 1.6;    ///< [cm] fall of the shoulder line
   double armhole_depth = 22;     ///< [cm] height of the armpit
   double waist_share = 0.95;     ///< [-] width at the waist / chest
-  double sleeve_length = 57;     ///< [cm] shoulder to cuff
-  double sleeve_angle = 25;      ///< [degree] from the vertical
-  double cuff_width = 9;         ///< [cm]
+  double sleeve_length = 60;     ///< [cm] shoulder to cuff
+  double sleeve_angle = 31;      ///< [degree] from the vertical
+  double sleeve_width = 17.5;    ///< [cm] flat, square to the sleeve at the armpit
+  double cuff_width = 9.7;       ///< [cm] flat
 
   // Outline of all garments.
   double chest = 46;       ///< [cm] flat width from armpit to armpit; of a skirt: of the waist

@@ -40,16 +40,17 @@ PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment) {
     s.rib = dice.pick(3) == 0 ? 0 : dice.range(1, 2.2);
   } else if (garment == GarmentKind::long_sleeve) {
     s.neck_half = dice.range(7.5, 11);
-    s.shoulder_half = dice.range(18, 22);
+    s.chest = dice.range(43, 56);
+    s.shoulder_half = s.chest * dice.range(0.41, 0.45);
     s.shoulder_drop = dice.range(2.5, 4.5);
     s.neck_depth = dice.range(7, 15);
-    s.armhole_depth = dice.range(21, 26);
-    s.chest = std::max(dice.range(43, 58), 2 * s.shoulder_half + 5);
+    s.armhole_depth = s.shoulder_drop + s.chest * dice.range(0.39, 0.43);
     s.hem = s.chest * dice.range(0.92, 1.05);
     s.length = dice.range(56, 70);
-    s.sleeve_length = dice.range(50, 60);
-    s.sleeve_angle = dice.range(20, 45);
-    s.cuff_width = dice.range(8, 11);
+    s.sleeve_length = s.armhole_depth - s.shoulder_drop + dice.range(39, 43);
+    s.sleeve_angle = dice.range(26, 34);
+    s.sleeve_width = s.chest * dice.range(0.34, 0.37);
+    s.cuff_width = s.chest * dice.range(0.19, 0.21);
     s.hem_rib = dice.pick(2) == 0 ? 0 : dice.range(4, 7);
   } else {
     s.chest = dice.range(30, 44);

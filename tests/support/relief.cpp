@@ -55,6 +55,12 @@ std::vector<Fold> folds_of_top(const PhotoSpec& s, const Shape& shape, Dice& dic
         const Vec2 a = shoulder + along * (upper - shoulder), b = armpit + along * (lower - armpit);
         return Vec2(a + across * (b - a));
       };
+      for (int k = 0; k < 2; ++k) {  // a sleeve laid down at the side is pushed together under its head
+        const Vec2 from = armpit + Vec2(sign * dice.range(1, 2.5), -dice.range(0, 4));
+        const Vec2 to = from + Vec2(sign * dice.range(2, 5), -dice.range(6, 11));
+        folds.push_back({from, (from + to) / 2 + Vec2(sign * dice.range(0, 2), 0), to, dice.range(0.5, 1.0),
+                         dice.range(0.06, 0.12)});
+      }
       for (int k = 0; k < 4; ++k) {  // round the elbow
         const double t = dice.range(0.4, 0.75), lean = dice.range(-0.10, 0.10);
         folds.push_back({at(t, dice.range(0.05, 0.25)), at(t + 0.5 * lean + 0.02, 0.5),

@@ -49,20 +49,21 @@ PhotoSpec prism_long_sleeve() {
   s.seed = 37;
   s.neck_half = 9;
   s.neck_depth = 9;
-  s.shoulder_half = 20;
-  s.shoulder_drop = 3.4;
+  s.shoulder_half = 21;
+  s.shoulder_drop = 3.8;
   s.armhole_depth = 24;
   s.chest = 49;
   s.hem = 48.5;
   s.length = 64;
-  s.sleeve_angle = 27;
+  s.sleeve_angle = 33;
+  s.sleeve_length = 61;
   s.colour = {36, 46, 84};
   s.second = {242, 240, 234};
   s.trim = {31, 40, 74};
   s.motif = true;
   s.creases = 1.35;
-  s.width = 1100;
-  s.height = 850;
+  s.width = 1200;
+  s.height = 820;
   s.fill = 0.9;
   s.board = {226, 226, 225};
   s.tilt = 0.7;
@@ -79,8 +80,9 @@ PhotoSpec mustard_long_sleeve() {
   s.chest = 50;
   s.hem = 47;
   s.length = 60;
-  s.sleeve_angle = 31;
-  s.sleeve_length = 55;
+  s.sleeve_angle = 33;
+  s.sleeve_width = 18;
+  s.cuff_width = 10;
   s.fabric = Fabric2d::heather;
   s.colour = {210, 150, 44};
   s.second = {240, 208, 130};
@@ -177,7 +179,7 @@ std::string sample_manifest() {
     const double chest = (point("armpit_right", "waist_right") - point("armpit_left", "waist_left")).norm();
     const double length = points.at("hem_left").y() - point("neck_left", "waist_left").y();
     text += item.sku + "," + name_of(item.front.garment) + "," + item.neckline + "," + item.sku + "-front.jpg," +
-            item.sku + "-back.jpg,yes,,," + number(chest) + "," + number(length) + "," + item.fabric + ",\"" + title +
+            item.sku + "-back.jpg,,,," + number(chest) + "," + number(length) + "," + item.fabric + ",\"" + title +
             "\"\n";
   }
   return text;

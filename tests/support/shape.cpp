@@ -65,6 +65,34 @@ struct Half {
   Curve top_front, top_back, shoulder, armhole, upper, cuff, under, side, hem;  // from the middle outwards, downwards
 };
 
+/// A set-in sleeve laid down beside the body: its head swells out from the shoulder, from the armpit on it tapers.
+void add_sleeve(Half& h, const PhotoSpec& s, const Vec2& shoulder, const Vec2& armpit, double turn) {
+  const double a = (s.sleeve_angle + turn) * std::numbers::pi / 180;
+  const Vec2 along(std::sin(a), std::cos(a)), outward(std::cos(a), -std::sin(a));
+  // The cuff stands square to the sleeve, `sleeve_length` from the shoulder.
+  const double down = (armpit - shoulder).dot(along), rise = (shoulder - armpit).dot(outward);
+  const double cuff_rise = 0.5 * (s.sleeve_width + s.cuff_width) - rise;
+  const double length = std::sqrt(s.sleeve_length * s.sleeve_length - cuff_rise * cuff_rise) - down;
+  const int n = static_cast<int>(length / step);
+  Curve upper;
+  for (int i = 0; i <= n; ++i) {
+    const double t = static_cast<double>(i) / n;
+    // The upper arm's cloth narrows faster than the forearm's; both edges take half of it.
+    const double width = s.sleeve_width + (s.cuff_width - s.sleeve_width) * (1.18 * t - 0.18 * t * t);
+    const Vec2 middle = armpit + t * length * along + 0.5 * s.sleeve_width * outward;
+    upper.push_back(middle + 0.5 * width * outward);
+    // It leaves the body at an open angle: a gap that closes like a needle's eye would hide the armpit from the mask.
+    const double from_armpit = t * length / 3;
+    h.under.push_back(middle - (0.5 * width - 0.6 * from_armpit * std::exp(1 - from_armpit)) * outward);
+  }
+  h.under = reversed(h.under);
+  const Vec2 out = (shoulder - Vec2(s.neck_half, 0)).normalized(), on = (upper[1] - upper[0]).normalized();
+  const double head = (upper[0] - shoulder).norm();
+  h.upper = bezier(shoulder, shoulder + 0.30 * head * out, upper[0] - 0.36 * head * on, upper[0]);
+  append(h.upper, upper);
+  h.cuff = line(upper.back(), h.under.front());
+}
+
 Half half_top(const PhotoSpec& s, double wide, double turn, double drop) {
   Half h;
   const bool sleeves = s.garment == GarmentKind::long_sleeve;
@@ -79,17 +107,7 @@ Half half_top(const PhotoSpec& s, double wide, double turn, double drop) {
                                {shoulder.x() - 0.6, shoulder.y() + 0.8 * d}, armpit)
                       : bezier(shoulder, {shoulder.x() - 1.0, shoulder.y() + 0.6 * d},
                                {shoulder.x() + 0.22 * (armpit.x() - shoulder.x()), shoulder.y() + 0.97 * d}, armpit);
-  if (sleeves) {
-    const double a = (s.sleeve_angle + turn) * std::numbers::pi / 180;
-    const Vec2 along(std::sin(a), std::cos(a)), across(-std::cos(a), std::sin(a));
-    const Vec2 upper = shoulder + s.sleeve_length * along, lower = upper + s.cuff_width * across;
-    // The shoulder line runs on for a hand's breadth before it turns down into the sleeve.
-    const Vec2 out = (shoulder - neck).normalized();
-    h.upper = bezier(shoulder, shoulder + 5.5 * out, upper - 0.62 * s.sleeve_length * along, upper);
-    h.cuff = line(upper, lower);
-    // It leaves the body at an angle: a gap that closes like a needle's eye would hide the armpit from the mask.
-    h.under = bezier(lower, lower - 16 * along, armpit + Vec2(1.5 + 4 * std::sin(a), 4.2), armpit);
-  }
+  if (sleeves) add_sleeve(h, s, shoulder, armpit, turn);
   const double waist_y = armpit.y() + 0.42 * (hem.y() - armpit.y());
   const double waist_x = s.waist_share * armpit.x();
   h.side = bezier(armpit, {waist_x - 0.3, waist_y - 3}, {waist_x, waist_y + 8}, hem);

@@ -14,9 +14,11 @@ namespace vitrine {
 struct CatalogItem {
   std::string sku;      ///< unique; also the name of the item's folder: [A-Za-z0-9._-], not beginning with . or -
   std::string garment;  ///< garment type, e.g. "vest"
-  std::string neckline = "auto";      ///< neckline id, or "auto"
-  std::string front, back;            ///< photo files; back is empty where the shop has none
-  bool mirror_back = true;            ///< the back photo was taken from behind (the usual case)
+  std::string neckline = "auto";  ///< neckline id, or "auto"
+  std::string front, back;        ///< photo files; back is empty with mirror_back
+  /// Make the back panel from the front's mirrored silhouette, because the shop has no back photo. Each row has either
+  /// this or a back photo.
+  bool mirror_back = false;
   std::string front_mask, back_mask;  ///< mask files, or empty
   std::optional<double> chest_cm;     ///< [cm] flat width the garment type names: armpit to armpit, a skirt's waist
   std::optional<double> length_cm;    ///< [cm]

@@ -50,16 +50,31 @@ TEST_F(Manifest, reads_every_column_in_any_order) {
 }
 
 TEST_F(Manifest, empty_optional_fields_take_their_defaults) {
-  const auto list = items("sku,garment,front,neckline,mirror_back,chest_cm,back\na,vest,f.jpg,,,,\n");
+  const auto list = items("sku,garment,front,neckline,mirror_back,chest_cm,back\na,vest,f.jpg,,,,b.jpg\n");
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].neckline, "auto");
-  EXPECT_TRUE(list[0].mirror_back);
+  EXPECT_FALSE(list[0].mirror_back);
   EXPECT_FALSE(list[0].chest_cm.has_value());
-  EXPECT_TRUE(list[0].back.empty());
+  EXPECT_TRUE(list[0].front_mask.empty());
+}
+
+TEST_F(Manifest, the_back_is_a_photo_or_the_mirrored_front_but_not_both) {
+  const auto list =
+      items("sku,garment,front,back,mirror_back\na,vest,f.jpg,,yes\nb,vest,f.jpg,b.jpg,\nc,vest,f.jpg,b.jpg,no\n");
+  ASSERT_EQ(list.size(), 3u);
+  EXPECT_TRUE(list[0].mirror_back && list[0].back.empty());
+  for (const int i : {1, 2}) EXPECT_TRUE(!list[i].mirror_back && !list[i].back.empty()) << i;
+  const std::string header = "sku,garment,front,back,mirror_back,back_mask\nx,vest,f.jpg,b.jpg,,\n";
+  refuses(header + "a,vest,f.jpg,b.jpg,yes,\n", "MANIFEST_VALUE", ":3: column 5 \"mirror_back\"");
+  for (const char* no : {"", "no", "false", "0"})
+    refuses(header + "a,vest,f.jpg,," + no + ",\n", "MANIFEST_VALUE", ":3: column 4 \"back\"");
+  refuses(header + "a,vest,f.jpg,,yes,m.png\n", "MANIFEST_VALUE", ":3: column 6 \"back_mask\"");
+  refuses("sku,garment,front\na,vest,f.jpg\n", "MANIFEST_VALUE", ":2: column \"back\"");
 }
 
 TEST_F(Manifest, quotes_hold_commas_quotes_and_line_breaks) {
-  const auto list = items("sku,garment,front,title\na,vest,f.jpg,\"one, \"\"two\"\"\nthree\"\nb,vest,g.jpg,\"\"\n");
+  const auto list =
+      items("sku,garment,front,back,title\na,vest,f.jpg,b.jpg,\"one, \"\"two\"\"\nthree\"\nb,vest,g.jpg,b.jpg,\"\"\n");
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[0].title, "one, \"two\"\nthree");
   EXPECT_EQ(list[1].title, "");
@@ -67,7 +82,7 @@ TEST_F(Manifest, quotes_hold_commas_quotes_and_line_breaks) {
 }
 
 TEST_F(Manifest, line_ends_and_byte_order_mark_make_no_difference) {
-  const std::string plain = "sku,garment,front\na,vest,f.jpg\nb,skirt,g.jpg";
+  const std::string plain = "sku,garment,front,back\na,vest,f.jpg,b.jpg\nb,skirt,g.jpg,b.jpg";
   for (const char* end : {"\n", "\r\n", "\r"})
     for (const char* mark : {"", "\xEF\xBB\xBF"})
       for (const char* last : {"", end}) {
@@ -90,14 +105,14 @@ TEST_F(Manifest, absolute_paths_stay_and_others_are_beside_the_manifest) {
 
 TEST_F(Manifest, unknown_columns_are_ignored_with_a_warning) {
   std::vector<std::string> warnings;
-  const auto list = items("sku,colour,garment,front\na,red,vest,f.jpg\n", &warnings);
+  const auto list = items("sku,colour,garment,front,back\na,red,vest,f.jpg,b.jpg\n", &warnings);
   ASSERT_EQ(list.size(), 1u);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], HasSubstr(":1: column 2 \"colour\""));
 }
 
 TEST_F(Manifest, lines_without_content_are_skipped) {
-  EXPECT_EQ(items("\nsku,garment,front\n\na,vest,f.jpg\n,,\n\nb,vest,f.jpg\n\n").size(), 2u);
+  EXPECT_EQ(items("\nsku,garment,front,back\n\na,vest,f.jpg,b.jpg\n,,,\n\nb,vest,f.jpg,b.jpg\n\n").size(), 2u);
 }
 
 TEST_F(Manifest, each_mandatory_column_is_asked_for_by_name) {
@@ -114,12 +129,13 @@ TEST_F(Manifest, semicolons_are_recognised_in_the_remedy) {
 }
 
 TEST_F(Manifest, an_empty_mandatory_field_names_its_line_and_column) {
-  refuses("sku,garment,front\na,vest,f.jpg\nb,,f.jpg\n", "MANIFEST_VALUE", ":3: column 2 \"garment\"");
+  refuses("sku,garment,front,back\na,vest,f.jpg,b.jpg\nb,,f.jpg,b.jpg\n", "MANIFEST_VALUE", ":3: column 2 \"garment\"");
   refuses("sku,garment,front\n,vest,f.jpg\n", "MANIFEST_VALUE", ":2: column 1 \"sku\"");
 }
 
 TEST_F(Manifest, a_repeated_sku_names_both_lines) {
-  refuses("sku,garment,front\na,vest,f.jpg\nb,vest,f.jpg\na,vest,f.jpg\n", "SKU_DUPLICATE", ":4: column 1 \"sku\"");
+  refuses("sku,garment,front,back\na,vest,f.jpg,b.jpg\nb,vest,f.jpg,b.jpg\na,vest,f.jpg,b.jpg\n", "SKU_DUPLICATE",
+          ":4: column 1 \"sku\"");
   const auto read = read_manifest((root / "m.csv").string());
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error().message, HasSubstr("line 2"));
@@ -151,7 +167,7 @@ TEST_F(Manifest, text_that_is_not_utf8_is_refused) {
   refuses("sku,garment,front,title\na,vest,f.jpg,caf\xE9\n", "MANIFEST_ENCODING", "");
   refuses(std::string("sku,garment,front\na,vest,f\0.jpg\n", 31), "MANIFEST_ENCODING", "");
   refuses("\xFF\xFEs", "MANIFEST_ENCODING", "");
-  EXPECT_EQ(items("sku,garment,front,title\na,vest,f.jpg,caf\xC3\xA9 \xE2\x82\xAC\n").size(), 1u);
+  EXPECT_EQ(items("sku,garment,front,back,title\na,vest,f.jpg,b.jpg,caf\xC3\xA9 \xE2\x82\xAC\n").size(), 1u);
 }
 
 TEST_F(Manifest, a_manifest_without_items_is_refused) {
@@ -177,7 +193,7 @@ TEST_F(Manifest, a_file_beyond_64_megabytes_is_refused_unread) {
 }
 
 TEST_F(Manifest, more_than_a_million_rows_are_refused) {
-  std::string text = "sku,garment,front\n";
-  for (int i = 0; i <= 1'000'000; ++i) text += std::to_string(i) + ",vest,f.jpg\n";
+  std::string text = "sku,garment,front,back\n";
+  for (int i = 0; i <= 1'000'000; ++i) text += std::to_string(i) + ",vest,f.jpg,b.jpg\n";
   refuses(text, "MANIFEST_TOO_LARGE", ":1000002");
 }

@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "sleeve_size.hpp"
+
 using namespace vitrine;
 using namespace vitrine::support;
 
@@ -120,6 +122,22 @@ TEST(PhotoMaker, keeps_long_sleeves_clear_of_the_body) {
         const Vec2 body = armpit + t * (hem - armpit), gap = 0.5 * (cuff + body);
         EXPECT_EQ(*photo.labels.at(static_cast<int>(gap.x()), static_cast<int>(gap.y())), label_background)
             << seed << side;
+      }
+    }
+}
+
+TEST(PhotoMaker, long_sleeves_fit_an_arm_and_taper_to_the_cuff) {
+  for (std::uint32_t seed = 1; seed <= 8; ++seed)
+    for (const bool back : {false, true}) {
+      const PhotoSpec front = random_spec(seed, GarmentKind::long_sleeve);
+      for (const SleeveSize& sleeve : sleeves_of(make_photo(back ? back_of(front) : front))) {
+        SCOPED_TRACE(seed);
+        EXPECT_NEAR(sleeve.armpit / front.chest, 0.355, 0.035);
+        EXPECT_NEAR(sleeve.cuff / front.chest, 0.20, 0.02);
+        EXPECT_GT(sleeve.armpit, sleeve.elbow + 2);
+        EXPECT_GT(sleeve.elbow, sleeve.cuff + 1.5);
+        EXPECT_NEAR(sleeve.under, 42.5, 4);
+        EXPECT_NEAR(sleeve.upper, 60, 6);
       }
     }
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "sample_items.hpp"
+#include "sleeve_size.hpp"
 #include "vitrine/catalog.hpp"
 
 using namespace vitrine;
@@ -42,6 +43,7 @@ TEST(SampleCatalogue, the_manifest_reads_without_a_warning_and_finds_its_photos)
     ++kinds[item.garment];
     EXPECT_TRUE(fs::is_regular_file(item.front)) << item.front;
     EXPECT_TRUE(fs::is_regular_file(item.back)) << item.back;
+    EXPECT_FALSE(item.mirror_back);
     EXPECT_TRUE(item.chest_cm && item.length_cm);
   }
   EXPECT_EQ(kinds, (std::map<std::string, int>{{"vest", 2}, {"long_sleeve", 2}, {"skirt", 2}}));
@@ -74,6 +76,21 @@ TEST(SampleCatalogue, the_committed_photos_are_what_the_generator_draws) {
       for (int c = 0; c < 3; ++c) EXPECT_LT(mean[c], 0.6);
       EXPECT_LT(cv::countNonZero(difference.reshape(1) > 24), static_cast<int>(difference.total() * 3 / 2000));
     }
+}
+
+TEST(SampleCatalogue, its_long_sleeves_have_the_size_that_their_chest_asks_for) {
+  for (const SampleItem& item : sample_items()) {
+    if (item.front.garment != GarmentKind::long_sleeve) continue;
+    for (const bool back : {false, true})
+      for (const SleeveSize& sleeve : sleeves_of(make_photo(back ? back_of(item.front) : item.front))) {
+        SCOPED_TRACE(item.sku + (back ? " back" : " front"));
+        EXPECT_NEAR(sleeve.armpit, 17.5, 1);
+        EXPECT_NEAR(sleeve.elbow, 13.1, 1);
+        EXPECT_NEAR(sleeve.cuff, 9.8, 0.5);
+        EXPECT_NEAR(sleeve.under, 43.5, 2);
+        EXPECT_NEAR(sleeve.upper, 60, 2);
+      }
+  }
 }
 
 TEST(SampleCatalogue, each_garment_stands_out_from_its_board) {
