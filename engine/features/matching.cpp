@@ -15,6 +15,8 @@ constexpr double kReward = 0.9;     // what such a corner is worth, in squared s
 constexpr double kWrongTurn = 0.6;  // penalty for a corner that turns the other way
 constexpr double kShape = 0.35;     // weight of the distance between neighbouring features
 constexpr double kFar = 1e18;
+constexpr double kLongArm = 0.09;  // arm that sees past a bite of 1.5 % of the diagonal, share of the diagonal
+constexpr double kNoiseTurn = 18;  // [degree] what such a bite still turns the long arms
 
 struct State {
   int sample = 0;
@@ -176,6 +178,25 @@ double overlap(const std::vector<cv::Point>& polygon, const cv::Mat& small_mask)
   return any > 0 ? static_cast<double>(both) / any : 0;
 }
 
+/// What remains of the turn at `s` when the outline is seen over a long arc, inside the stretch `before` and `after` it
+/// [samples]: a bite or a burr of the cut-out turns back within the arc, a corner of the garment does not.
+double long_turn(const Outline& outline, int s, int before, int after) {
+  const int n = static_cast<int>(outline.samples.size());
+  const int arm = std::max(4, static_cast<int>(kLongArm * outline.diagonal / outline.step));
+  const auto direction = [&](int sign, int reach) {
+    // From the mean of the near half to the mean of the far half of the arm.
+    const int half = std::max(2, std::min(arm, reach) / 2);
+    Vec2 near = Vec2::Zero(), far = Vec2::Zero();
+    for (int k = 0; k < half; ++k) {
+      near += outline.samples[((s + sign * k) % n + n) % n].at;
+      far += outline.samples[((s + sign * (k + half)) % n + n) % n].at;
+    }
+    return Vec2(sign * (far - near));
+  };
+  const Vec2 in = direction(-1, before), out = direction(1, after);
+  return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) * 180 / std::numbers::pi;
+}
+
 /// Strong corners of the outline that no feature explains speak against the garment.
 double unexplained(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& sample_of) {
   const int n = static_cast<int>(outline.samples.size());
@@ -184,15 +205,18 @@ double unexplained(const Outline& outline, const GarmentTemplate& garment, const
     if (follows_outline(garment, edge)) continue;
     // A seam is smooth; a hem may have frills and folds.
     const double gate = edge.kind == EdgeKind::seam ? 25 : 40;
-    for (int s = sample_of[edge.from]; s != sample_of[edge.to]; s = (s + 1) % n) {
+    const int first = sample_of[edge.from], last = sample_of[edge.to];
+    for (int s = first; s != last; s = (s + 1) % n) {
       const Sample& sample = outline.samples[s];
       if (sample.candidate < 0 || std::abs(sample.coarse_deg) < gate) continue;
+      const double turn =
+          std::min(std::abs(sample.coarse_deg), long_turn(outline, s, (s - first + n) % n, (last - s + n) % n));
       double nearest = kFar;
       for (const int f : sample_of) nearest = std::min(nearest, (outline.samples[f].at - sample.at).norm());
       const double gap = nearest / outline.diagonal;
       if (gap > 0.06)
         sum += (edge.kind == EdgeKind::seam ? 1.6 : 0.6) * std::min(1.0, std::abs(sample.coarse_deg) / 90) *
-               std::min(1.0, (gap - 0.06) / 0.06);
+               std::clamp((turn - kNoiseTurn) / (gate - kNoiseTurn), 0.0, 1.0) * std::min(1.0, (gap - 0.06) / 0.06);
     }
   }
   return sum;

@@ -180,8 +180,9 @@ Result<Panel> assemble(const std::vector<EdgeCurve>& curves, const std::vector<i
   }
 
   // Wide enough that the two sides of a slit stay apart, far too narrow to be seen on the cloth.
-  open_slits(panel.outline, fixed, std::min(0.1 * edge_length, 0.002));
-  if (!untangle(panel.outline, fixed, 4 * edge_length)) return degenerate(side, "it crosses itself");
+  const double gap = std::min(0.1 * edge_length, 0.002);
+  open_slits(panel.outline, fixed, gap);
+  if (!untangle(panel.outline, fixed, 4 * edge_length, gap)) return degenerate(side, "it crosses itself");
   if (!(signed_area(panel.outline) > 0)) return degenerate(side, "it has no area");
   return panel;
 }

@@ -60,6 +60,53 @@ bool straighten(std::vector<Vec2>& outline, const std::vector<bool>& fixed, int 
   return count > 1;
 }
 
+/// A node that lies on the wrong side of the other of two crossing segments, by `depth` [m].
+struct Intruder {
+  int node, segment;  ///< the segment is left on its right side, away from the cloth
+  double depth, along;
+  Vec2 out;
+};
+
+/// The ends of both crossing segments that reach into the other's cloth, the shallowest first: a corner that pokes
+/// through an edge reaches less deep into it than the edge reaches past the corner's own sides.
+std::vector<Intruder> intruders(const std::vector<Vec2>& outline, int i, int j) {
+  const int n = static_cast<int>(outline.size());
+  std::vector<Intruder> found;
+  for (const auto& [from, segment] : {std::pair{i, j}, std::pair{j, i}})
+    for (const int node : {from, (from + 1) % n}) {
+      const int next = (segment + 1) % n;
+      const Vec2 d = outline[next] - outline[segment], way = outline[node] - outline[segment];
+      const double length = d.norm();
+      if (!(length > 0) || node == segment || node == next) continue;
+      const Vec2 out = Vec2(d.y(), -d.x()) / length;
+      const double depth = -way.dot(out);
+      if (depth >= 0) found.push_back({node, segment, depth, way.dot(d) / (length * length), out});
+    }
+  std::stable_sort(found.begin(), found.end(), [](const Intruder& a, const Intruder& b) { return a.depth < b.depth; });
+  return found;
+}
+
+/// Pushes the two sides of a crossing apart until `gap` lies between them; what is fixed leaves the way to the other.
+bool part_crossing(std::vector<Vec2>& outline, const std::vector<bool>& fixed, int i, int j, double gap,
+                   double farthest) {
+  const int n = static_cast<int>(outline.size());
+  for (const Intruder& p : intruders(outline, i, j)) {
+    if (p.depth > farthest) break;
+    const int a = p.segment, b = (a + 1) % n;
+    const double t = std::clamp(p.along, 0.0, 1.0), needed = p.depth + gap;
+    // How far the segment gives way at the node's foot for one metre of each free end.
+    const double give = (fixed[a] ? 0 : 1 - t) + (fixed[b] ? 0 : t);
+    if (fixed[p.node] && give < 0.15) continue;
+    const double own = fixed[p.node] ? 0 : give < 0.15 ? 1 : 0.5;
+    outline[p.node] += own * needed * p.out;
+    const Vec2 yield = own < 1 ? Vec2(-(1 - own) * needed / give * p.out) : Vec2(Vec2::Zero());
+    if (!fixed[a]) outline[a] += yield;
+    if (!fixed[b]) outline[b] += yield;
+    return true;
+  }
+  return false;
+}
+
 double stretch_length(const std::vector<Vec2>& outline, int from, int to) {
   const int n = static_cast<int>(outline.size());
   double length = 0;
@@ -89,9 +136,9 @@ std::optional<std::pair<int, int>> find_crossing(const std::vector<Vec2>& outlin
   return first;
 }
 
-bool untangle(std::vector<Vec2>& outline, const std::vector<bool>& fixed, double largest_loop) {
+bool untangle(std::vector<Vec2>& outline, const std::vector<bool>& fixed, double largest_loop, double gap) {
   const int n = static_cast<int>(outline.size());
-  for (int attempt = 0; attempt < 64; ++attempt) {
+  for (int attempt = 0; attempt < 400; ++attempt) {
     const auto crossing = find_crossing(outline);
     if (!crossing) return true;
     // Segment i runs i -> i+1; the loop is what lies between the two crossing segments, on the shorter way round.
@@ -102,7 +149,9 @@ bool untangle(std::vector<Vec2>& outline, const std::vector<bool>& fixed, double
       from = crossing->second;
       to = (crossing->first + 1) % n;
     }
-    if (std::min(inside, around) > largest_loop || !straighten(outline, fixed, from, to)) return false;
+    if (std::min(inside, around) <= largest_loop && straighten(outline, fixed, from, to)) continue;
+    // Two stretches that only lie side by side (a sleeve along the body) change sides again and again: no loop.
+    if (!part_crossing(outline, fixed, crossing->first, crossing->second, gap, 0.25 * largest_loop)) return false;
   }
   return !find_crossing(outline);
 }

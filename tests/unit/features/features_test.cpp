@@ -165,6 +165,44 @@ TEST(Features, RefuseAnotherGarment) {
   }
 }
 
+/// The drawing with square bites cut into its side seams, alternately left and right.
+Image bitten(const Drawing& drawing, double deep, double tall, double apart) {
+  Image labels = filled(drawing.outline);
+  for (int y = 0; y < labels.height; ++y) {
+    const double v = y - 20 - 225;
+    if (v < 0 || v > 190 || std::fmod(v, apart) > tall) continue;
+    const bool left = static_cast<int>(v / apart) % 2 == 0;
+    int first = 0, last = labels.width - 1;
+    while (first < last && !*labels.at(first, y)) ++first;
+    while (last > first && !*labels.at(last, y)) --last;
+    for (int k = 0; k < deep; ++k) *labels.at(left ? first + k : last - k, y) = label_background;
+  }
+  return labels;
+}
+
+TEST(Features, TakeBitesOfOneAndAHalfPercentOfTheDiagonalForNoise) {
+  const Drawing drawing = draw_vest();
+  const double diagonal = std::hypot(270, 380);
+  for (const double share : {0.005, 0.01, 0.015}) {
+    const double size = share * diagonal;
+    const auto features = features_of(bitten(drawing, size, size, 6 * size), vest(), on_the_back());
+    ASSERT_TRUE(features) << share << ": " << features.error().message;
+    EXPECT_GT(features->score, 0.6) << share;
+    expect_corners(*features, drawing, 6);
+  }
+}
+
+TEST(Features, LetABiteSpeakAgainstTheGarmentByItsSize) {
+  double before = 2;
+  for (const double deep : {5.0, 25.0, 60.0}) {
+    const auto features = features_of(bitten(draw_vest(), deep, deep, 400), vest(), on_the_back());
+    const double score = features ? features->score : 0;
+    EXPECT_LE(score, before) << deep;
+    before = score;
+  }
+  EXPECT_LT(before, 0.7);
+}
+
 TEST(Features, UseTheInsideThatTheShopMarked) {
   Drawing back = draw_vest(12);  // the back's neckline is high
   Image labels = filled(back.outline);

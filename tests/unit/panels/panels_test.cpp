@@ -15,7 +15,10 @@ using test::Drawn;
 using test::photograph;
 
 PanelOptions chest(double metres, double edge_length = 0.02) {
-  return {.edge_length = edge_length, .chest = metres, .length = 0, .girths = {}};
+  PanelOptions options;
+  options.edge_length = edge_length;
+  options.chest = metres;
+  return options;
 }
 
 double area(const std::vector<Vec2>& outline) {
@@ -76,6 +79,31 @@ TEST_P(PanelsOfGarments, outline_is_simple_counter_clockwise_and_covered_once_by
   }
 }
 
+TEST_P(PanelsOfGarments, sleeves_cut_free_on_the_body_stay_on_their_own_side) {
+  // The cuff lies on the body: the side seam runs along the sleeve, round the cuff's corner, and out again to the hem.
+  Drawn d = test::long_sleeve(-0.025);
+  const Vec2 cuff = d.corners[test::index_of(d, "cuff_lower_right")].metres;
+  const std::vector<Vec2> side{cuff + Vec2(-0.003, -0.002), {0.25, 0.045}};
+  d.corners[test::index_of(d, "armpit_right")].towards = side;
+  d.corners[test::index_of(d, "hem_left")].towards = {{-side[1].x(), side[1].y()}, {-side[0].x(), side[0].y()}};
+  for (double tilt : {-3.0, 0.0, 1.5}) {
+    const auto panels = make_panels(photograph(d, {.tilt_deg = tilt}), photograph(d, {.pixels_per_metre = 900}),
+                                    d.garment, chest(0.5, GetParam()));
+    ASSERT_TRUE(panels) << panels.error().message;
+    for (const Panel* panel : {&panels->front, &panels->back}) {
+      EXPECT_FALSE(crosses_itself(panel->outline));
+      EXPECT_GT(area(panel->outline), 0.1);
+      for (int f : {test::index_of(d, "cuff_lower_right"), test::index_of(d, "armpit_right")}) {
+        const Vec2 at = panel->outline[panel->corner[f]];
+        EXPECT_LT((at - panel->outline[panel->corner[test::index_of(d, "hem_right")]] - d.corners[f].metres +
+                   d.corners[test::index_of(d, "hem_right")].metres)
+                      .norm(),
+                  0.006);
+      }
+    }
+  }
+}
+
 TEST_P(PanelsOfGarments, seams_pair_node_for_node_with_their_ends) {
   const Drawn d = test::vest();
   const auto panels = make_panels(photograph(d), photograph(test::vest(0.03), {.pixels_per_metre = 900, .width = 1.05}),
@@ -111,7 +139,7 @@ TEST_P(PanelsOfGarments, outline_segments_are_about_the_target_length) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(coarse_standard_fine, PanelsOfGarments, testing::Values(0.05, 0.02, 0.007));
+INSTANTIATE_TEST_SUITE_P(coarse_standard_fine, PanelsOfGarments, testing::Values(0.055, 0.05, 0.03, 0.02, 0.007));
 
 TEST(Panels, corners_map_back_to_their_pixels) {
   const Drawn d = test::vest();
