@@ -49,6 +49,14 @@ std::vector<Vec2> upright_pixels(const Features& features) {
   return upright;
 }
 
+std::vector<Vec2> upright_contour(const Features& features) {
+  const Turn2 turn(features.tilt_deg);
+  std::vector<Vec2> upright;
+  upright.reserve(features.contour.size());
+  for (const Vec2& p : features.contour) upright.push_back(turn.upright(p));
+  return upright;
+}
+
 double scale_distance(const std::vector<Vec2>& upright, const ScaleRule& rule) {
   return (upright[rule.feature_a] - upright[rule.feature_b]).norm();
 }
@@ -101,9 +109,16 @@ Result<FrontScale> front_scale(const std::vector<Vec2>& upright, const GarmentTe
   return scale;
 }
 
+double anchor_height(const std::vector<Vec2>& upright, const GarmentTemplate& garment) {
+  double y = 0, top = upright.front().y();
+  for (int anchor : garment.anchors) y += upright[anchor].y();
+  for (const Vec2& p : upright) top = std::min(top, p.y());
+  return garment.anchors.empty() ? top : y / static_cast<double>(garment.anchors.size());
+}
+
 Affine2 pixel_from_panel(const std::vector<Vec2>& upright, double tilt_deg, double metres_per_pixel,
                          const GarmentTemplate& garment) {
-  double x = 0, y = 0;
+  double x = 0;
   int pairs = 0;
   for (int i = 0; i < static_cast<int>(upright.size()); ++i) {
     if (partner(garment, i) == i) continue;
@@ -116,8 +131,7 @@ Affine2 pixel_from_panel(const std::vector<Vec2>& upright, double tilt_deg, doub
     high = high.cwiseMax(p);
   }
   x = pairs > 0 ? x / pairs : 0.5 * (low.x() + high.x());
-  for (int anchor : garment.anchors) y += upright[anchor].y();
-  y = garment.anchors.empty() ? low.y() : y / static_cast<double>(garment.anchors.size());
+  const double y = anchor_height(upright, garment);
 
   const Turn2 turn(tilt_deg);
   Affine2 affine;

@@ -11,6 +11,12 @@ namespace vitrine::panels_room {
 /// Feature positions in pixels after the photo's tilt is removed, y still down.
 std::vector<Vec2> upright_pixels(const Features& features);
 
+/// The contour likewise.
+std::vector<Vec2> upright_contour(const Features& features);
+
+/// Mean height of the anchors [px], the top of the points where there are none.
+double anchor_height(const std::vector<Vec2>& upright, const GarmentTemplate& garment);
+
 /// Distance of the scale rule's two features [px].
 double scale_distance(const std::vector<Vec2>& upright, const ScaleRule& rule);
 

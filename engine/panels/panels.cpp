@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "body_levels.hpp"
 #include "frame.hpp"
 #include "outline.hpp"
 
@@ -173,9 +174,13 @@ Result<Panels> make_panels(const Features& front, const Features& back, const Ga
   panels.scale_source = scale->source;
   if (!scale->warning.empty()) panels.warnings.push_back(scale->warning);
   panels.metres_per_pixel_front = scale->metres_per_pixel;
+  if (scale->source == "ease")
+    panels.metres_per_pixel_front = scale_for_body(scale->metres_per_pixel, upright_contour(front),
+                                                   anchor_height(upright_front, garment), options.levels);
   const double width_back = scale_distance(upright_back, garment.scale);
   if (!(width_back >= 4)) return bad_features(Side::back, "those that measure its width lie within four pixels");
-  panels.metres_per_pixel_back = scale->metres_per_pixel * scale_distance(upright_front, garment.scale) / width_back;
+  panels.metres_per_pixel_back =
+      panels.metres_per_pixel_front * scale_distance(upright_front, garment.scale) / width_back;
 
   auto photo_front = photographed(front, upright_front, garment, panels.metres_per_pixel_front, h, Side::front);
   if (!photo_front) return photo_front.error();

@@ -125,7 +125,22 @@ PanelOptions Rooms::panel_options(double edge_length) const {
   options.edge_length = edge_length;
   options.chest = request_.chest;
   options.length = request_.length;
-  options.girths = request_.body->mannequin.girths;
+  const Mannequin& mannequin = request_.body->mannequin;
+  options.girths = mannequin.girths;
+  double hang = 0;
+  int anchors = 0;
+  for (const int feature : request_.garment.anchors) {
+    const auto landmark = mannequin.landmarks.find(request_.garment.features[feature].landmark);
+    if (landmark == mannequin.landmarks.end()) continue;  // the fit room refuses, and names it
+    hang += landmark->second.y();
+    ++anchors;
+  }
+  for (const char* level : {"waist", "hip"}) {
+    const auto landmark = mannequin.landmarks.find(level);
+    const auto girth = mannequin.girths.find(level);
+    if (anchors > 0 && landmark != mannequin.landmarks.end() && girth != mannequin.girths.end())
+      options.levels.push_back({hang / anchors - landmark->second.y(), girth->second});
+  }
   return options;
 }
 

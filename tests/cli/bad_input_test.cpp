@@ -16,11 +16,11 @@ std::string a_front() {
   return {};
 }
 
-Run convert(const std::string& front, const fs::path& out, const std::string& more = "--garment vest --mirror-back") {
+Outcome convert(const std::string& front, const fs::path& out, const std::string& more = "--garment vest --mirror-back") {
   return vitrine("convert --quality draft --front '" + front + "' " + more + " --out '" + out.string() + "'");
 }
 
-void expect_refused(const Run& run, int exit_code, const std::string& named, const fs::path& out) {
+void expect_refused(const Outcome& run, int exit_code, const std::string& named, const fs::path& out) {
   EXPECT_EQ(run.exit_code, exit_code) << run.text;
   EXPECT_NE(run.text.find(named), std::string::npos) << "the message does not name " << named << ":\n" << run.text;
   EXPECT_NE(run.text.find("remedy"), std::string::npos) << run.text;
@@ -68,7 +68,7 @@ TEST(BadInput, mask_of_another_size_ends_65) {
 
 TEST(BadInput, unknown_garment_neckline_and_fabric_name_the_choices) {
   const fs::path out = scratch() / "out";
-  Run run = convert(a_front(), out, "--garment kimono --mirror-back");
+  Outcome run = convert(a_front(), out, "--garment kimono --mirror-back");
   expect_refused(run, 69, "kimono", out);
   EXPECT_NE(run.text.find("long_sleeve"), std::string::npos);
   run = convert(a_front(), out, "--garment vest --neckline neck_x --mirror-back");
@@ -81,7 +81,7 @@ TEST(BadInput, unwritable_folder_ends_73) {
   // A file where the folder should be: not writable for anybody, root included.
   const fs::path folder = scratch();
   std::ofstream(folder / "file") << "x";
-  const Run run = convert("no-such-photo.jpg", folder / "file" / "out");
+  const Outcome run = convert("no-such-photo.jpg", folder / "file" / "out");
   EXPECT_EQ(run.exit_code, 73) << run.text;
 }
 

@@ -14,14 +14,14 @@ namespace vitrine::test {
 
 namespace fs = std::filesystem;
 
-struct Run {
+struct Outcome {
   int exit_code = -1;
   std::string text;  ///< standard output and error
 };
 
 /// Runs the built program with a shell command line.
-inline Run vitrine(const std::string& arguments) {
-  Run run;
+inline Outcome vitrine(const std::string& arguments) {
+  Outcome run;
   const std::string command = std::string(VITRINE_BINARY_DIR) + "/bin/vitrine " + arguments + " 2>&1 </dev/null";
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return run;

@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <string>
+#include <vector>
 
 #include "vitrine/features.hpp"
 #include "vitrine/model/panel.hpp"
@@ -9,11 +10,18 @@
 
 namespace vitrine {
 
+/// A level of the body that the garment may have to go round.
+struct BodyLevel {
+  double drop = 0;   ///< [m] below the landmarks that the garment's anchors hang on
+  double girth = 0;  ///< [m]
+};
+
 struct PanelOptions {
   double edge_length = 0.02;  ///< [m] target spacing of outline nodes
   double chest = 0;           ///< [m] flat distance of the scale rule's features as the shop lists it; 0 = unknown
   double length = 0;          ///< [m] flat length, top to bottom of the scale rule; 0 = unknown
   std::map<std::string, double> girths;  ///< [m] body girths, for the plugin's ease when both are 0
+  std::vector<BodyLevel> levels;  ///< with the ease, the garment is made wide enough for each level that it reaches
 };
 
 /// Both panels with their outlines resampled, and the seam pairs between them; meshes are still empty.
