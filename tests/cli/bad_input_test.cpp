@@ -17,7 +17,7 @@ std::string a_front() {
 }
 
 Outcome convert(const std::string& front, const fs::path& out, const std::string& more = "--garment vest --mirror-back") {
-  return vitrine("convert --quality draft --front '" + front + "' " + more + " --out '" + out.string() + "'");
+  return run_vitrine("convert --quality draft --front '" + front + "' " + more + " --out '" + out.string() + "'");
 }
 
 void expect_refused(const Outcome& run, int exit_code, const std::string& named, const fs::path& out) {
@@ -86,12 +86,12 @@ TEST(BadInput, unwritable_folder_ends_73) {
 }
 
 TEST(BadInput, usage_errors_end_64) {
-  EXPECT_EQ(vitrine("").exit_code, 64);
-  EXPECT_EQ(vitrine("convert").exit_code, 64);
-  EXPECT_EQ(vitrine("convert --front a.jpg --garment vest --out x").exit_code, 64);
-  EXPECT_EQ(vitrine("convert --front a.jpg --back b.jpg --mirror-back --garment vest --out x").exit_code, 64);
-  EXPECT_EQ(vitrine("convert --front a.jpg --mirror-back --garment vest --chest-cm -4 --out x").exit_code, 64);
-  EXPECT_EQ(vitrine("--help").exit_code, 0);
+  EXPECT_EQ(run_vitrine("").exit_code, 64);
+  EXPECT_EQ(run_vitrine("convert").exit_code, 64);
+  EXPECT_EQ(run_vitrine("convert --front a.jpg --garment vest --out x").exit_code, 64);
+  EXPECT_EQ(run_vitrine("convert --front a.jpg --back b.jpg --mirror-back --garment vest --out x").exit_code, 64);
+  EXPECT_EQ(run_vitrine("convert --front a.jpg --mirror-back --garment vest --chest-cm -4 --out x").exit_code, 64);
+  EXPECT_EQ(run_vitrine("--help").exit_code, 0);
 }
 
 TEST(BadInput, bad_mannequins_are_named) {

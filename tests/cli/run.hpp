@@ -20,7 +20,7 @@ struct Outcome {
 };
 
 /// Runs the built program with a shell command line.
-inline Outcome vitrine(const std::string& arguments) {
+inline Outcome run_vitrine(const std::string& arguments) {
   Outcome run;
   const std::string command = std::string(VITRINE_BINARY_DIR) + "/bin/vitrine " + arguments + " 2>&1 </dev/null";
   FILE* pipe = popen(command.c_str(), "r");
