@@ -159,12 +159,13 @@ void LimbBend::find_rings(const DistanceField& field, const std::vector<Vec3>& c
     const Vec3 along = (chain[k] - chain[k - 1]) / std::max(1e-12, arc[k] - arc[k - 1]);
     const Vec3 start = chain[k - 1] + along * (s - arc[k - 1]);
     Vec3 centre = start;
-    for (int step = 0; step < 40; ++step) {
+    double length = 0.005;  // shrinking steps, 60 mm in all, end within a fraction of a millimetre
+    for (int step = 0; step < 40; ++step, length *= 0.92) {
       Vec3 gradient;
-      const double depth = -field.distance(centre, gradient);
+      field.distance(centre, gradient);
       Vec3 inwards = -gradient + along * along.dot(gradient);
       if (inwards.norm() < 0.1) break;
-      centre += inwards.normalized() * std::max(0.0005, 0.05 * std::abs(depth));
+      centre += inwards.normalized() * length;
       if ((centre - start).norm() > 0.05) break;  // no limb is thicker than that off its own landmarks: it is the trunk
     }
     rings_.push_back({centre, std::max(0.0, -field.distance(centre))});

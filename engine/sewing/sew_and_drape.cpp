@@ -19,7 +19,7 @@ using namespace sewing;
 constexpr double gap_bar = 0.002;  // [m] partners must be at least this close before they are welded
 constexpr double near_by = 0.03;   // [m] partners that start closer than this are sewn first
 constexpr int sewing_rounds = 4;
-constexpr double strain_bar = 1.0;         // [-] jersey and rib bear about double their width; beyond, it would tear
+constexpr double strain_bar = 0.8;         // [-] jersey and rib bear nearly double their width; beyond, cloth would tear
 constexpr double penetration_bar = 0.002;  // [m]
 
 std::string text(const char* format, double a, double b = 0) {
