@@ -16,10 +16,10 @@ using Bytes = std::vector<std::uint8_t>;
 void put(Bytes& b, const std::string& text) {
   b.insert(b.end(), text.begin(), text.end());
 }
-void put_be(Bytes& b, std::uint32_t v, int bytes) {
+void put_be(Bytes& b, std::uint64_t v, int bytes) {
   for (int k = bytes - 1; k >= 0; --k) b.push_back(static_cast<std::uint8_t>(v >> (8 * k) & 255));
 }
-void put_le(Bytes& b, std::uint32_t v, int bytes) {
+void put_le(Bytes& b, std::uint64_t v, int bytes) {
   for (int k = 0; k < bytes; ++k) b.push_back(static_cast<std::uint8_t>(v >> (8 * k) & 255));
 }
 
