@@ -108,8 +108,8 @@ TEST(Fit, panels_stand_before_and_behind_and_clear_of_the_body) {
   ASSERT_TRUE(placed);
   for (int panel = 0; panel < 2; ++panel)
     for (const Vec3& q : (*placed)[panel]) {
-      // A sleeve's half tube ends on the arm's own middle, which the voxels give to a few millimetres.
-      EXPECT_GT(q.z() * (panel == 0 ? 1 : -1), -0.003);
+      // A sleeve's half tube ends on the arm's own middle, which the voxels give to a millimetre.
+      EXPECT_GT(q.z() * (panel == 0 ? 1 : -1), -0.001);
       EXPECT_GE(doll.field.distance(q), 0.009);
     }
 }
@@ -135,9 +135,9 @@ TEST(Fit, mirrored_panels_are_placed_mirrored) {
   for (const char* name : {"neck", "shoulder", "cuff_upper", "cuff_lower", "armpit", "hem"}) {
     const Vec3 l = shirt.corner(*placed, 0, std::string(name) + "_left"),
                r = shirt.corner(*placed, 0, std::string(name) + "_right");
-    // The middle of each arm is found on the voxels, to a few millimetres.
-    EXPECT_NEAR(l.x(), -r.x(), 3e-3) << name;
-    EXPECT_NEAR(l.y(), r.y(), 3e-3) << name;
+    // The middle of each arm is found on the voxels, to a millimetre.
+    EXPECT_NEAR(l.x(), -r.x(), 1e-3) << name;
+    EXPECT_NEAR(l.y(), r.y(), 1e-3) << name;
   }
 }
 
