@@ -26,13 +26,8 @@ std::optional<Error> write_conversion(const ConvertRequest& request, const Conve
       if (!png) return png.error();
       return write_file(base + name, *png);
     };
-    if (!item.front_silhouette.labels.empty())
-      if (auto e =
-              picture(draw_features(item.front_photo, item.front_silhouette, item.front_features), "debug-front.png"))
-        return e;
-    if (!item.back_silhouette.labels.empty())
-      if (auto e = picture(draw_features(item.back_photo, item.back_silhouette, item.back_features), "debug-back.png"))
-        return e;
+    if (auto e = picture(draw_view(view_of(request, Side::front), item.front), "debug-front.png")) return e;
+    if (auto e = picture(draw_view(view_of(request, Side::back), item.back), "debug-back.png")) return e;
     for (std::size_t i = 0; i < item.pattern.meshes.size(); ++i)
       if (auto e = picture(draw_mesh(item.pattern.meshes[i]), i == 0 ? "debug-mesh-front.png" : "debug-mesh-back.png"))
         return e;

@@ -1,57 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include "vitrine/pipeline.hpp"
+#include "as_given.hpp"
 
 namespace vitrine {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Name of the same feature in a mirrored picture: what the front frame calls left is the right of a back photo.
-std::string swap_sides(std::string name) {
-  const auto swap_end = [&](const std::string& from, const std::string& to) {
-    if (name.size() < from.size() || name.compare(name.size() - from.size(), from.size(), from) != 0) return false;
-    name.replace(name.size() - from.size(), from.size(), to);
-    return true;
-  };
-  if (!swap_end("_left", "_right")) swap_end("_right", "_left");
-  return name;
-}
-
-/// A pixel of the front frame as a pixel of the photo as given.
-Vec2 source_pixel(const Photo& photo, Vec2 p) {
-  if (photo.mirrored) p.x() = photo.rgb.width - 1 - p.x();
-  return p / photo.scale;
-}
-
-void add_features(Json& list, const char* panel, const Photo& photo, const Features& features) {
-  for (const FeaturePoint& f : features.points) {
-    const Vec2 p = source_pixel(photo, f.pixel);
-    list.push_back({{"panel", panel},
-                    {"name", photo.mirrored ? swap_sides(f.name) : f.name},
-                    {"landmark", f.landmark},
-                    {"x", p.x()},
-                    {"y", p.y()},
-                    {"origin", f.origin},
-                    {"confidence", f.confidence}});
+void add_features(Json& list, const char* panel, const ViewRequest& request, const View& view) {
+  for (const NamedPoint& point : points_as_given(request, view)) {
+    Json entry{{"panel", panel}};
+    entry.update(point_json(point));
+    list.push_back(std::move(entry));
   }
-  if (!features.points.empty() && !features.neckline.id.empty()) {
-    const Vec2 p = source_pixel(photo, features.neckline.low);
-    list.push_back({{"panel", panel},
-                    {"name", "neck_low"},
-                    {"landmark", panel == std::string("front") ? "neck_front" : "neck_back"},
-                    {"x", p.x()},
-                    {"y", p.y()},
-                    {"origin", "neckline"},
-                    {"confidence", features.neckline.inside_found ? 0.9 : 0.7}});
-  }
-}
-
-Json silhouette_json(const Silhouette& s) {
-  Json j{{"method", s.method}, {"edge_support", s.edge_support}};
-  if (!s.method_reason.empty()) j["method_reason"] = s.method_reason;
-  return j;
 }
 
 Json mesh_json(const PanelMesh& mesh) {
@@ -79,22 +41,21 @@ std::string report_json(const ConvertRequest& request, const Conversion& item) {
                   {"exit_code", item.error->exit_code()}};
   j["garment"] = {{"id", request.garment.id}, {"plugin", request.garment.plugin}, {"version", request.garment.version}};
   j["photos"] = {{"front", request.front}, {"back", request.mirror_back ? "mirrored front" : request.back}};
-  if (!item.front_silhouette.method.empty()) j["silhouette"]["front"] = silhouette_json(item.front_silhouette);
-  if (!item.back_silhouette.method.empty()) j["silhouette"]["back"] = silhouette_json(item.back_silhouette);
+  if (!item.front.silhouette.method.empty()) j["silhouette"]["front"] = silhouette_json(item.front.silhouette);
+  if (!item.back.silhouette.method.empty()) j["silhouette"]["back"] = silhouette_json(item.back.silhouette);
   j["features"] = Json::array();
-  add_features(j["features"], "front", item.front_photo, item.front_features);
-  add_features(j["features"], "back", item.back_photo, item.back_features);
-  if (!item.front_features.points.empty()) {
-    j["pose"] = item.front_features.pose;
-    j["template_score"] = item.front_features.score;
-    const NecklineChoice& n = item.front_features.neckline;
-    if (!n.id.empty())
-      j["neckline"] = {{"id", n.id}, {"ratio", n.ratio}, {"forced", n.forced}, {"inside_found", n.inside_found}};
+  add_features(j["features"], "front", view_of(request, Side::front), item.front);
+  add_features(j["features"], "back", view_of(request, Side::back), item.back);
+  const Features& front = item.front.features;
+  if (!front.points.empty()) {
+    j["pose"] = front.pose;
+    j["template_score"] = front.score;
+    if (!front.neckline.id.empty()) j["neckline"] = neckline_json(front.neckline);
   }
   if (!item.panels.scale_source.empty())
     j["panels"] = {{"scale_source", item.panels.scale_source},
-                   {"mm_per_pixel_front", item.panels.metres_per_pixel_front * 1e3 * item.front_photo.scale},
-                   {"mm_per_pixel_back", item.panels.metres_per_pixel_back * 1e3 * item.back_photo.scale},
+                   {"mm_per_pixel_front", item.panels.metres_per_pixel_front * 1e3 * item.front.photo.scale},
+                   {"mm_per_pixel_back", item.panels.metres_per_pixel_back * 1e3 * item.back.photo.scale},
                    {"worst_seam_ratio", item.panels.worst_seam_ratio}};
   if (item.pattern.meshes.size() == 2) {
     j["mesh"] = {{"edge_length_mm", item.pattern.edge_length * 1e3},

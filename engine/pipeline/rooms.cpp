@@ -11,14 +11,6 @@
 namespace vitrine {
 namespace {
 
-/// Moves a room's value into its place, or hands its error on.
-template <class T>
-Rooms::Step keep(Result<T> result, T& place) {
-  if (!result) return result.error();
-  place = *std::move(result);
-  return std::nullopt;
-}
-
 double polygon_area(const std::vector<Vec2>& p) {
   double twice = 0;
   for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) twice += p[j].x() * p[i].y() - p[i].x() * p[j].y();
@@ -37,8 +29,11 @@ double longest_edge(const GarmentTemplate& garment, const Panel& panel) {
   return longest;
 }
 
-void name_panel(Rooms::Step& error, const std::string& file) {
-  if (error && error->message.find(file) == std::string::npos) error->message = file + ": " + error->message;
+/// A back picture made of the mirrored front, mirrored once more into the front frame: the front itself, whose inside
+/// is then the back's own cloth.
+void fill_inside(Image& labels) {
+  std::replace(labels.data.begin(), labels.data.end(), static_cast<std::uint8_t>(label_inside),
+               static_cast<std::uint8_t>(label_outside));
 }
 
 }  // namespace
@@ -74,50 +69,25 @@ Rooms::Step Rooms::check_request() {
 }
 
 Rooms::Step Rooms::load_photos() {
-  if (auto e = keep(load_photo(request_.front, request_.front_mask), item_.front_photo)) return e;
-  if (request_.mirror_back) {
-    // A back picture made of the mirrored front, mirrored once more into the front frame: the front itself.
-    item_.back_photo = item_.front_photo;
-    for (auto& label : item_.back_photo.mask.data)
-      if (label == label_inside) label = label_outside;
-    item_.warnings.push_back("MIRRORED_BACK");
-    return std::nullopt;
-  }
-  PhotoOptions options;
-  options.mirror = true;
-  return keep(load_photo(request_.back, request_.back_mask, options), item_.back_photo);
+  if (auto e = load_view(front_, item_.front)) return e;
+  if (!request_.mirror_back) return load_view(back_, item_.back);
+  item_.back.photo = item_.front.photo;
+  fill_inside(item_.back.photo.mask);
+  item_.warnings.push_back("MIRRORED_BACK");
+  return std::nullopt;
 }
 
 Rooms::Step Rooms::find_silhouettes() {
-  auto front = keep(find_silhouette(item_.front_photo), item_.front_silhouette);
-  name_panel(front, request_.front);
-  if (front) return front;
-  if (request_.mirror_back) {
-    item_.back_silhouette = item_.front_silhouette;
-    for (auto& label : item_.back_silhouette.labels.data)
-      if (label == label_inside) label = label_outside;
-    return std::nullopt;
-  }
-  auto back = keep(find_silhouette(item_.back_photo), item_.back_silhouette);
-  name_panel(back, request_.back);
-  return back;
+  if (auto e = outline_view(front_, item_.front)) return e;
+  if (!request_.mirror_back) return outline_view(back_, item_.back);
+  item_.back.silhouette = item_.front.silhouette;
+  fill_inside(item_.back.silhouette.labels);
+  return std::nullopt;
 }
 
 Rooms::Step Rooms::find_feature_points() {
-  FeatureOptions options;
-  options.neckline = request_.neckline;
-  auto front =
-      keep(find_features(item_.front_photo, item_.front_silhouette, request_.garment, request_.necklines, options),
-           item_.front_features);
-  name_panel(front, request_.front);
-  if (front) return front;
-  options.side = Side::back;
-  options.neckline = "auto";  // the back's neckline is its own: the choice is the front's
-  auto back =
-      keep(find_features(item_.back_photo, item_.back_silhouette, request_.garment, request_.necklines, options),
-           item_.back_features);
-  name_panel(back, request_.mirror_back ? request_.front : request_.back);
-  return back;
+  if (auto e = name_points(front_, item_.front)) return e;
+  return name_points(back_, item_.back);
 }
 
 PanelOptions Rooms::panel_options(double edge_length) const {
@@ -147,7 +117,7 @@ PanelOptions Rooms::panel_options(double edge_length) const {
 Rooms::Step Rooms::cut_panels() {
   plan_ = plan_for(request_.quality);
   // A first cut at a middling edge length only to learn the cloth's area.
-  if (auto e = keep(make_panels(item_.front_features, item_.back_features, request_.garment, panel_options(0.03)),
+  if (auto e = keep(make_panels(item_.front.features, item_.back.features, request_.garment, panel_options(0.03)),
                     item_.panels))
     return e;
   const double area = polygon_area(item_.panels.front.outline) + polygon_area(item_.panels.back.outline);
@@ -159,7 +129,7 @@ Rooms::Step Rooms::cut_panels() {
     if (!levels_.empty() && edge_length > 0.95 * levels_.back().edge_length) continue;  // no finer than the one before
     Panels panels;
     if (auto e =
-            keep(make_panels(item_.front_features, item_.back_features, request_.garment, panel_options(edge_length)),
+            keep(make_panels(item_.front.features, item_.back.features, request_.garment, panel_options(edge_length)),
                  panels))
       return e;
     Pattern pattern;
@@ -170,9 +140,8 @@ Rooms::Step Rooms::cut_panels() {
     levels_.push_back(std::move(pattern));
     item_.panels = std::move(panels);
   }
-  for (const auto* list : {&item_.front_silhouette.warnings, &item_.front_features.warnings,
-                           &item_.back_silhouette.warnings, &item_.back_features.warnings, &item_.panels.warnings})
-    for (const auto& warning : *list)
+  for (const auto& list : {item_.front.warnings(), item_.back.warnings(), item_.panels.warnings})
+    for (const auto& warning : list)
       if (std::find(item_.warnings.begin(), item_.warnings.end(), warning) == item_.warnings.end())
         item_.warnings.push_back(warning);
   return std::nullopt;
@@ -213,9 +182,9 @@ Rooms::Step Rooms::sew() {
 }
 
 Rooms::Step Rooms::texture() {
-  const TextureSource front{&item_.front_photo.rgb, &item_.front_features.labels, &item_.pattern.panels[0],
+  const TextureSource front{&item_.front.photo.rgb, &item_.front.features.labels, &item_.pattern.panels[0],
                             &item_.pattern.meshes[0]};
-  const TextureSource back{&item_.back_photo.rgb, &item_.back_features.labels, &item_.pattern.panels[1],
+  const TextureSource back{&item_.back.photo.rgb, &item_.back.features.labels, &item_.pattern.panels[1],
                            &item_.pattern.meshes[1]};
   const TextureSource sources[] = {front, back};
   auto atlas = make_atlas(sources);

@@ -14,11 +14,25 @@ struct QualityPlan {
 };
 QualityPlan plan_for(Quality quality);
 
+/// The steps of see(), one for each room. Each stops with the room's error, which is also kept in the view.
+std::optional<Error> load_view(const ViewRequest& request, View& view);
+std::optional<Error> outline_view(const ViewRequest& request, View& view);
+std::optional<Error> name_points(const ViewRequest& request, View& view);
+
+/// Moves a room's value into its place, or hands its error on.
+template <class T>
+std::optional<Error> keep(Result<T> result, T& place) {
+  if (!result) return result.error();
+  place = *std::move(result);
+  return std::nullopt;
+}
+
 /// Carries one item through the rooms: each step takes what the rooms before it left in the Conversion. After the first
 /// error no further room is entered.
 class Rooms {
  public:
-  Rooms(const ConvertRequest& request, Conversion& item) : request_(request), item_(item) {}
+  Rooms(const ConvertRequest& request, Conversion& item)
+      : request_(request), front_(view_of(request, Side::front)), back_(view_of(request, Side::back)), item_(item) {}
 
   using Step = std::optional<Error>;
 
@@ -52,6 +66,7 @@ class Rooms {
   PanelOptions panel_options(double edge_length) const;
 
   const ConvertRequest& request_;
+  const ViewRequest front_, back_;
   Conversion& item_;
   QualityPlan plan_;
   std::vector<Pattern> levels_;

@@ -26,7 +26,7 @@ std::string report_line(const Conversion& item) {
             {"remedy", item.error->remedy},
             {"stage", item.error->stage}};
   if (!item.drape.status.empty())
-    line.update({{"neckline", item.front_features.neckline.id},
+    line.update({{"neckline", item.front.features.neckline.id},
                  {"residual", item.drape.residual},
                  {"seam_gap_mm_max", item.drape.seam_gap_mm_max},
                  {"penetration_mm_max", item.drape.penetration_mm_max},

@@ -136,7 +136,7 @@ void JobOptions::apply(ConvertRequest& request) const {
 }
 
 std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment,
-                                    const std::string& neckline, ConvertRequest& request) {
+                                    const std::string& neckline, GarmentChoice& choice) {
   const auto unknown = [&](const char* code, const char* kind, const std::string& id, const auto& known,
                            std::string choices) {
     for (const auto& k : known) choices += (choices.empty() ? "" : ", ") + k.id;
@@ -151,9 +151,9 @@ std::optional<Error> choose_garment(const PluginRegistry& registry, const std::s
   if (!found) return unknown("UNKNOWN_GARMENT", "garment", garment, registry.garments(), "");
   if (neckline != "auto" && !registry.find_neckline(neckline))
     return unknown("UNKNOWN_NECKLINE", "neckline", neckline, registry.necklines(), "auto");
-  request.garment = *found;
-  request.neckline = neckline;
-  request.necklines = registry.necklines();
+  choice.garment = *found;
+  choice.neckline = neckline;
+  choice.necklines = registry.necklines();
   return std::nullopt;
 }
 

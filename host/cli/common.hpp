@@ -41,15 +41,16 @@ struct JobOptions {
   void apply(ConvertRequest& request) const;
 };
 
-/// Adds to `request` what the registry knows: the garment's template and all necklines; `neckline` is "auto" or an id.
+/// Adds to `choice` what the registry knows: the garment's template and all necklines; `neckline` is "auto" or an id.
 std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment,
-                                    const std::string& neckline, ConvertRequest& request);
+                                    const std::string& neckline, GarmentChoice& choice);
 
 /// Prints "vitrine: message / remedy" to standard error and returns the exit code.
 int fail(const Error& error);
 
 void add_convert(CLI::App& app, int& exit_code);
 void add_catalog(CLI::App& app, int& exit_code);
+void add_features(CLI::App& app, int& exit_code);
 void add_plugin(CLI::App& app, int& exit_code);
 
 }  // namespace vitrine::cli

@@ -28,14 +28,58 @@ struct Body {
   DistanceField field;
 };
 
-struct ConvertRequest {
-  std::string name = "garment";  ///< SKU or any label; goes into asset extras
-  std::string front, back;       ///< photo files; back may be empty with mirror_back
-  std::string front_mask, back_mask;
-  bool mirror_back = false;  ///< make the back panel from the front photo's silhouette
+/// What the user says the photos show.
+struct GarmentChoice {
   GarmentTemplate garment;
   std::vector<NecklineTemplate> necklines;
   std::string neckline = "auto";
+};
+
+/// One photo to be looked at.
+struct ViewRequest : GarmentChoice {
+  std::string photo;  ///< file
+  std::string mask;   ///< file; may be empty
+  Side side = Side::front;
+};
+
+/// One photo after the rooms photo, silhouette and features; everything in the front frame.
+struct View {
+  Photo photo;
+  Silhouette silhouette;
+  Features features;
+  std::optional<Error> error;                 ///< set when a room refused; what the rooms before it left is kept
+  std::vector<std::string> warnings() const;  ///< of all three rooms, each once
+};
+
+/// The first three rooms for one photo. convert() sends each of its photos through the same steps.
+View see(const ViewRequest& request);
+
+/// A point as a person with the photo before them calls it: pixels of the photo as given (upright by EXIF, before any
+/// reduction; pixel centres at whole numbers), left and right as in that picture.
+struct NamedPoint {
+  std::string name, landmark;
+  Vec2 pixel;
+  std::string origin;  ///< FeaturePoint::origin, or "outline": lowest point of an opening without a neckline
+  double confidence = 0;
+};
+constexpr double low_confidence = 0.5;  ///< below: the point was not seen, the template placed it
+
+/// The view's feature points and the lowest point of its top opening (neck_low, waist_low).
+std::vector<NamedPoint> points_as_given(const ViewRequest& request, const View& view);
+
+/// Label values in the photo's size as given; empty when no silhouette was found.
+Image mask_as_given(const View& view);
+
+/// All that was seen, as JSON; in the photo as given. `view.error` is the refusal.
+std::string view_json(const ViewRequest& request, const View& view);
+/// The same for people, a few lines of text.
+std::string view_table(const ViewRequest& request, const View& view);
+
+struct ConvertRequest : GarmentChoice {
+  std::string name = "garment";  ///< SKU or any label; goes into asset extras
+  std::string front, back;       ///< photo files; back may be empty with mirror_back
+  std::string front_mask, back_mask;
+  bool mirror_back = false;      ///< make the back panel from the front photo's silhouette
   std::string fabric;            ///< name of one of the garment's fabrics; empty = its first
   double chest = 0, length = 0;  ///< [m] flat measurements as the shop lists them; 0 = unknown
   Quality quality = Quality::standard;
@@ -49,9 +93,7 @@ struct ConvertRequest {
 /// What every room left behind for one item; `error` is set when a room refused, and later rooms are then empty.
 struct Conversion {
   std::optional<Error> error;
-  Photo front_photo, back_photo;
-  Silhouette front_silhouette, back_silhouette;
-  Features front_features, back_features;
+  View front, back;
   Panels panels;
   Pattern pattern;  ///< of the finest level
   Fabric fabric;
@@ -62,6 +104,9 @@ struct Conversion {
   std::vector<std::pair<std::string, double>> stage_ms;  ///< [ms] of processor time per room, in order
   int exit_code() const { return error ? error->exit_code() : 0; }
 };
+
+/// What convert() asks of one of its photos.
+ViewRequest view_of(const ConvertRequest& request, Side side);
 
 /// One garment, from two photos to files in memory: the rooms in their order.
 Conversion convert(const ConvertRequest& request);
@@ -75,8 +120,9 @@ std::string report_json(const ConvertRequest& request, const Conversion& convers
 std::optional<Error> write_conversion(const ConvertRequest& request, const Conversion& conversion,
                                       const std::string& folder);
 
-/// Pictures of what was seen: silhouette, candidates, feature points; and the mesh of a panel.
-Image draw_features(const Photo& photo, const Silhouette& silhouette, const Features& features);
+/// A picture for people: the photo as given with silhouette outline, inside of the back tinted, feature points by name.
+/// Small photos are enlarged, and a caption is added below. Empty when there is no silhouette to show.
+Image draw_view(const ViewRequest& request, const View& view);
 Image draw_mesh(const PanelMesh& mesh, int height = 900);
 
 }  // namespace vitrine
