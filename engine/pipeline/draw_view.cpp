@@ -25,7 +25,7 @@ struct Sheet {
   cv::Mat canvas;
   double unit = 1;  ///< [px] width of a thin line
   int line() const { return std::max(1, static_cast<int>(std::lround(unit))); }
-  double font() const { return 0.45 * unit; }
+  double font() const { return 0.5 * unit; }
   cv::Size text(const std::string& s, double font) const {
     int below = 0;
     const cv::Size size = cv::getTextSize(s, kFont, font, line(), &below);
@@ -41,18 +41,18 @@ cv::Point fixed(const Vec2& p) {
 /// Dims the ground, tints the inside, draws the outlines with a dark rim that shows on any cloth.
 void draw_regions(const Sheet& sheet, const Image& labels, const std::vector<Vec2>& panel) {
   const cv::Mat l(labels.height, labels.width, CV_8U, const_cast<std::uint8_t*>(labels.data.data()));
-  cv::Mat dim = 0.62 * sheet.canvas;
+  cv::Mat dim = 0.72 * sheet.canvas;
   dim.copyTo(sheet.canvas, l == label_background);
   cv::Mat tint = 0.55 * sheet.canvas + 0.45 * kPanel;
   tint.copyTo(sheet.canvas, l == label_inside);
 
   std::vector<cv::Point> own;
   for (const Vec2& p : panel) own.push_back(fixed(p));
-  if (!own.empty()) cv::polylines(sheet.canvas, own, true, kPanel, 2 * sheet.line(), cv::LINE_AA, 4);
+  if (!own.empty()) cv::polylines(sheet.canvas, own, true, kPanel, 3 * sheet.line(), cv::LINE_AA, 4);
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(l != label_background, contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-  cv::polylines(sheet.canvas, contours, true, kDark, 3 * sheet.line(), cv::LINE_AA);
-  cv::polylines(sheet.canvas, contours, true, kOutline, sheet.line(), cv::LINE_AA);
+  cv::polylines(sheet.canvas, contours, true, kDark, 4 * sheet.line(), cv::LINE_AA);
+  cv::polylines(sheet.canvas, contours, true, kOutline, 2 * sheet.line(), cv::LINE_AA);
 }
 
 struct Mark {

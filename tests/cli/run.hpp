@@ -16,13 +16,14 @@ namespace fs = std::filesystem;
 
 struct Outcome {
   int exit_code = -1;
-  std::string text;  ///< standard output and error
+  std::string text;  ///< standard output, and error unless it was sent elsewhere
 };
 
-/// Runs the built program with a shell command line.
-inline Outcome run_vitrine(const std::string& arguments) {
+/// Runs the built program with a shell command line; `errors` says where standard error goes.
+inline Outcome run_vitrine(const std::string& arguments, const std::string& errors = "2>&1") {
   Outcome run;
-  const std::string command = std::string(VITRINE_BINARY_DIR) + "/bin/vitrine " + arguments + " 2>&1 </dev/null";
+  const std::string command =
+      std::string(VITRINE_BINARY_DIR) + "/bin/vitrine " + arguments + " " + errors + " </dev/null";
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return run;
   char buffer[4096];
