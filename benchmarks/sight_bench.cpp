@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
@@ -175,7 +176,18 @@ Case variant(std::uint32_t seed) {
 struct Asked {
   bool grabcut = false;
   int repeat = 1;
+  std::string pictures;
 };
+
+/// The photo, greyed, with what was found too much in red and what was missed in blue.
+void draw(const std::string& file, const cv::Mat& rgb, const cv::Mat& found, const cv::Mat& truth) {
+  cv::Mat picture;
+  cv::cvtColor(rgb, picture, cv::COLOR_RGB2BGR);
+  picture = 0.5 * picture + cv::Scalar(100, 100, 100);
+  picture.setTo(cv::Scalar(30, 30, 220), found & ~truth);
+  picture.setTo(cv::Scalar(220, 60, 30), truth & ~found);
+  cv::imwrite(file, picture);
+}
 
 Row measure(const Case& c, const PluginRegistry& registry, const Asked& asked) {
   Row row{c.name, c.garment, c.ground, "", "", 0, 0, 0, {}, -1, -1};
@@ -203,6 +215,7 @@ Row measure(const Case& c, const PluginRegistry& registry, const Asked& asked) {
   const cv::Mat found = view(seen->labels) > 0;
   row.iou = overlap(found, truth);
   const double diagonal = diagonal_of(truth);
+  if (!asked.pictures.empty()) draw(asked.pictures + "/" + c.name + ".png", rgb, found, truth);
   row.contour = contour_share(found, truth, 0.006 * diagonal);
   for (const std::string& w : seen->warnings) row.code += (row.code.empty() ? "" : "+") + w;
   const GarmentTemplate* garment = registry.find_garment(c.garment);
@@ -317,15 +330,18 @@ void write_svg(const std::string& file, std::vector<Row> rows) {
 
 int run(int argc, char** argv) {
   CLI::App app("Accuracy and cost of seeing garments");
-  std::string photos, csv, svg;
+  std::string photos, only, csv, svg;
   int variants = 0, first = 1;
   Asked asked;
   app.add_option("--photos", photos, "Folder with index.tsv, masks and landmarks");
+  app.add_option("--only", only, "Only photos whose name contains this");
   app.add_option("--variants", variants, "Number of generated photos");
   app.add_option("--first", first, "First seed of the generated photos");
   app.add_option("--repeat", asked.repeat, "Silhouettes are timed as the least of this many runs")
       ->check(CLI::Range(1, 99));
   app.add_flag("--grabcut", asked.grabcut, "Also run the peer");
+  app.add_option("--pictures", asked.pictures, "Draw found against marked silhouettes into this folder")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--csv", csv, "Write the rows here");
   app.add_option("--svg", svg, "Draw the rows here");
   CLI11_PARSE(app, argc, argv);
@@ -345,7 +361,8 @@ int run(int argc, char** argv) {
     std::fflush(stdout);
   };
   if (!photos.empty())
-    for (const Case& c : marked_photos(photos)) add(c);
+    for (const Case& c : marked_photos(photos))
+      if (c.name.find(only) != std::string::npos) add(c);
   for (int k = 0; k < variants; ++k) add(variant(static_cast<std::uint32_t>(first + k)));
   if (rows.empty()) {
     std::fprintf(stderr, "nothing to measure: give --photos FOLDER or --variants N\n");

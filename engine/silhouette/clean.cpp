@@ -22,11 +22,15 @@ cv::Mat main_piece(const cv::Mat& mask, double* second) {
   if (n < 2) return cv::Mat::zeros(mask.size(), CV_8U);
   // The distance transform's peaks tell a compact piece from a frame of clutter of the same area.
   std::vector<double> weight(n, 0);
-  for (int y = 0; y < mask.rows; ++y)
+  for (int y = 0; y < mask.rows; ++y) {
+    const int* label = labels.ptr<int>(y);
+    const double v = 2.0 * y / mask.rows - 1;
     for (int x = 0; x < mask.cols; ++x) {
-      const double u = 2.0 * x / mask.cols - 1, v = 2.0 * y / mask.rows - 1;
-      weight[labels.at<int>(y, x)] += std::max(0.05, 1 - 0.5 * (u * u + v * v));
+      if (label[x] == 0) continue;
+      const double u = 2.0 * x / mask.cols - 1;
+      weight[label[x]] += std::max(0.05, 1 - 0.5 * (u * u + v * v));
     }
+  }
   weight[0] = 0;
   const int best = static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   if (second)
@@ -35,6 +39,25 @@ cv::Mat main_piece(const cv::Mat& mask, double* second) {
         *second = std::max(
             *second, static_cast<double>(stats.at<int>(k, cv::CC_STAT_AREA)) / stats.at<int>(best, cv::CC_STAT_AREA));
   return labels == best;
+}
+
+cv::Mat without_specks(const cv::Mat& mask) {
+  std::vector<std::vector<cv::Point>> walks;
+  std::vector<cv::Vec4i> tree;
+  cv::findContours(mask, walks, tree, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+  int best = -1;
+  double largest = 0;
+  for (int i = 0; i < static_cast<int>(walks.size()); ++i) {
+    if (tree[i][3] >= 0) continue;
+    const double area = cv::contourArea(walks[i]);
+    if (best >= 0 && area <= largest) continue;
+    best = i;
+    largest = area;
+  }
+  cv::Mat out = mask.clone();
+  for (int i = 0; i < static_cast<int>(walks.size()); ++i)
+    if (tree[i][3] < 0 && i != best) cv::drawContours(out, walks, i, 0, cv::FILLED);
+  return out;
 }
 
 cv::Mat without_loose_ends(const cv::Mat& mask, int radius) {
@@ -75,28 +98,28 @@ cv::Mat fill_enclosed(const cv::Mat& mask, const cv::Mat& ground_like) {
   const int n = cv::connectedComponentsWithStats(padded, labels, stats, centres, 4, CV_32S);
   const int outside_label = labels.at<int>(0, 0);
   labels = labels(cv::Rect(1, 1, mask.cols, mask.rows));
-  cv::Mat solid = labels != outside_label, depth;
-  cv::copyMakeBorder(solid, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
-  cv::distanceTransform(padded, depth, cv::DIST_L2, 5);
+  cv::Mat solid = labels != outside_label;
   const double area = std::max(1, cv::countNonZero(solid)), size = std::sqrt(area);
-  cv::Mat out = solid.clone();
+  cv::Mat out = solid.clone(), depth;
   const cv::Rect box = cv::boundingRect(solid);
   for (int k = 1; k < n; ++k) {
-    if (k == outside_label) continue;
-    const cv::Mat hole = labels == k;
-    const double hole_area = cv::countNonZero(hole);
-    if (hole_area < 0.0008 * area) continue;
-    const double like = cv::countNonZero(hole & ground_like) / hole_area;
-    double nearest = 1e9;
-    for (int y = 0; y < mask.rows; ++y)
-      for (int x = 0; x < mask.cols; ++x)
-        if (hole.at<std::uint8_t>(y, x))
-          nearest = std::min(nearest, static_cast<double>(depth.at<float>(y + 1, x + 1)));
+    const double hole_area = stats.at<int>(k, cv::CC_STAT_AREA);
+    if (k == outside_label || hole_area < 0.0008 * area) continue;
+    const cv::Rect around(stats.at<int>(k, cv::CC_STAT_LEFT) - 1, stats.at<int>(k, cv::CC_STAT_TOP) - 1,
+                          stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
+    const cv::Mat hole = labels(around) == k;
+    const double like = cv::countNonZero(hole & ground_like(around)) / hole_area;
+    if (depth.empty()) {
+      cv::copyMakeBorder(solid, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+      cv::distanceTransform(padded, depth, cv::DIST_L2, 5);
+    }
+    double nearest = 0;
+    cv::minMaxLoc(depth(around + cv::Point(1, 1)), &nearest, nullptr, nullptr, nullptr, hole);
     // A gap beside a sleeve stands upright; a neck opening lies near the top. A sheer band or a pale stripe does
     // neither.
     const int width = stats.at<int>(k, cv::CC_STAT_WIDTH), height = stats.at<int>(k, cv::CC_STAT_HEIGHT);
-    const bool high = stats.at<int>(k, cv::CC_STAT_TOP) + height < box.y + 0.35 * box.height;
-    if (like > 0.6 && nearest < 0.16 * size && (high || height > 0.8 * width)) out.setTo(0, hole);
+    const bool high = around.y + height < box.y + 0.35 * box.height;
+    if (like > 0.6 && nearest < 0.16 * size && (high || height > 0.8 * width)) out(around).setTo(0, hole);
   }
   return out;
 }

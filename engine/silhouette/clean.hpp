@@ -8,6 +8,9 @@ namespace vitrine {
 /// `second` receives the area of the next largest compact piece as a share of it.
 cv::Mat main_piece(const cv::Mat& mask, double* second = nullptr);
 
+/// The largest connected piece by area alone: what to keep where nothing but specks can have come loose.
+cv::Mat without_specks(const cv::Mat& mask);
+
 /// Takes off what is thin and hangs on by one end only: hooks, cables, threads, tag strings. Straps stay, for they are
 /// held at both ends or are wider than `radius` on both sides.
 cv::Mat without_loose_ends(const cv::Mat& mask, int radius);

@@ -31,21 +31,18 @@ struct Contrast {
   double edge_support = 0, sides_differ = 0;
 };
 
-Contrast contrast_along(const cv::Mat& rgb, const cv::Mat& mask) {
-  const cv::Mat contour = contour_of(mask), lab = lab_from_rgb(rgb);
-  const int reach = std::max(1, std::max(rgb.cols, rgb.rows) / 250);
-  cv::Mat edge, inner, outer, weight;
-  cv::dilate(sobel_magnitude(rgb), edge, cv::Mat());
-  cv::erode(mask, inner, cv::Mat(), {-1, -1}, reach);
-  cv::dilate(mask, outer, cv::Mat(), {-1, -1}, reach);
-  const cv::Mat in = local_mean(lab, inner, 3 * reach, weight), out = local_mean(lab, ~outer, 3 * reach, weight);
+Contrast contrast_along(const WorkPicture& work, const cv::Mat& mask, const Sides& sides) {
+  const cv::Mat contour = contour_of(mask);
+  cv::Mat edge;
+  cv::dilate(work.edges, edge, cv::Mat());
   double n = 0, supported = 0, differ = 0;
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x) {
       if (!contour.at<std::uint8_t>(y, x)) continue;
       n += 1;
       supported += edge.at<float>(y, x) > least_edge;
-      differ += distance2(in.at<cv::Vec3f>(y, x), out.at<cv::Vec3f>(y, x)) > least_difference * least_difference;
+      differ +=
+          distance2(sides.in.at<cv::Vec3f>(y, x), sides.out.at<cv::Vec3f>(y, x)) > least_difference * least_difference;
     }
   return {supported / std::max(n, 1.0), differ / std::max(n, 1.0)};
 }
@@ -57,7 +54,8 @@ Error several_garments(const Photo& photo) {
                 "Photograph each garment on its own, or crop the photo to one garment.");
 }
 
-std::optional<Error> judge(const Photo& photo, const cv::Mat& mask, const SilhouetteOptions& options, Silhouette& out) {
+std::optional<Error> judge(const Photo& photo, const WorkPicture& work, const cv::Mat& mask, const Sides& sides,
+                           const SilhouetteOptions& options, Silhouette& out) {
   const int area = cv::countNonZero(mask);
   const bool drawn = out.method == "mask" || out.method == "alpha";
   if (area == 0 && drawn)
@@ -69,7 +67,7 @@ std::optional<Error> judge(const Photo& photo, const cv::Mat& mask, const Silhou
   if (area < options.min_area * static_cast<double>(mask.total()))
     return refuse(photo, "TOO_SMALL", "the garment covers too little of the photo.",
                   "Go closer or crop the photo, so that the garment fills most of the picture.");
-  const Contrast c = contrast_along(view(photo.rgb), mask);
+  const Contrast c = contrast_along(work, mask, sides);
   out.edge_support = c.edge_support;
   out.contrast = c.sides_differ;
   const double cut = cut_by_frame(mask);

@@ -52,26 +52,16 @@ class Mixture {
         if (owner[i] == widest && axis.dot(samples[i] - mean) > 0) owner[i] = fresh;
       refit(samples, owner, fresh + 1);
     }
-    for (int r = 0; r < rounds; ++r) maximise(samples);
+    refine(samples, rounds);
+  }
+
+  /// More rounds of expectation maximisation from the parts there are.
+  void refine(const std::vector<Vec>& samples, int rounds) {
+    for (int r = 0; r < rounds && !samples.empty(); ++r) maximise(samples);
   }
 
   bool empty() const { return parts_.empty(); }
   const std::vector<Part>& parts() const { return parts_; }
-
-  /// Log density of v.
-  double log_density(const Vec& v) const {
-    double best = -std::numeric_limits<double>::infinity();
-    double terms[max_parts];
-    const std::size_t n = std::min<std::size_t>(parts_.size(), max_parts);
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vec d = v - parts_[k].mean;
-      terms[k] = parts_[k].log_norm - 0.5 * d.dot(parts_[k].inverse * d);
-      best = std::max(best, terms[k]);
-    }
-    double sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += std::exp(terms[k] - best);
-    return best + std::log(sum);
-  }
 
   static constexpr int max_parts = 16;
 

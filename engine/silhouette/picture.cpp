@@ -18,17 +18,17 @@ cv::Mat lab_from_rgb(const cv::Mat& rgb) {
 }
 
 cv::Mat sobel_magnitude(const cv::Mat& rgb) {
-  cv::Mat gx, gy;
-  cv::Sobel(rgb, gx, CV_32F, 1, 0, 3);
-  cv::Sobel(rgb, gy, CV_32F, 0, 1, 3);
-  cv::Mat out(rgb.size(), CV_32F);
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x) {
-      const cv::Vec3f a = gx.at<cv::Vec3f>(y, x), b = gy.at<cv::Vec3f>(y, x);
-      float best = 0;
-      for (int c = 0; c < 3; ++c) best = std::max(best, a[c] * a[c] + b[c] * b[c]);
-      out.at<float>(y, x) = std::sqrt(best);
+  cv::Mat gx, gy, out(rgb.size(), CV_32F);
+  cv::Sobel(rgb, gx, CV_16S, 1, 0, 3);
+  cv::Sobel(rgb, gy, CV_16S, 0, 1, 3);
+  for (int y = 0; y < rgb.rows; ++y) {
+    const std::int16_t *a = gx.ptr<std::int16_t>(y), *b = gy.ptr<std::int16_t>(y);
+    float* o = out.ptr<float>(y);
+    for (int x = 0; x < rgb.cols; ++x, a += 3, b += 3) {
+      const auto square = [&](int c) { return a[c] * a[c] + b[c] * b[c]; };
+      o[x] = std::sqrt(static_cast<float>(std::max({square(0), square(1), square(2)})));
     }
+  }
   return out;
 }
 
@@ -69,6 +69,15 @@ cv::Mat local_mean(const cv::Mat& picture, const cv::Mat& mask, int radius, cv::
       if (w > 1e-6f) mean.at<cv::Vec3f>(y, x) /= w;
     }
   return mean;
+}
+
+Sides::Sides(const cv::Mat& lab, const cv::Mat& mask, int reach) {
+  const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
+  cv::Mat inner, outer;
+  cv::erode(mask, inner, kernel, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::dilate(mask, outer, kernel);
+  in = local_mean(lab, inner, 3 * reach + 2, weight_in);
+  out = local_mean(lab, ~outer, 3 * reach + 2, weight_out);
 }
 
 }  // namespace vitrine

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -25,6 +26,18 @@ struct Board {
     b << 1, u, v, u * u, u * v, v * v;
     return b;
   }
+  /// The model along row y.
+  void row(int y, std::vector<cv::Vec3f>& out) const {
+    const double v = 2.0 * y / size.height - 1;
+    for (int k = 0; k < 3; ++k) {
+      const auto base = static_cast<float>(c(0, k) + v * c(2, k) + v * v * c(5, k)),
+                 slope = static_cast<float>(c(1, k) + v * c(4, k)), bend = static_cast<float>(c(3, k));
+      for (int x = 0; x < size.width; ++x) {
+        const float u = 2.0f * static_cast<float>(x) / static_cast<float>(size.width) - 1;
+        out[static_cast<std::size_t>(x)][k] = base + u * (slope + u * bend);
+      }
+    }
+  }
   cv::Vec3f at(int y, int x) const {
     const Eigen::Matrix<double, 1, 3> r = basis(y, x) * c;
     return {static_cast<float>(r(0)), static_cast<float>(r(1)), static_cast<float>(r(2))};
@@ -34,7 +47,7 @@ struct Board {
 Board fit_board(const cv::Mat& lab, const cv::Mat& ground) {
   Board board;
   board.size = lab.size();
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(lab.total()) / 20000.0)));
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(lab.total()) / 6000.0)));
   double limit = 1e9;
   for (int round = 0; round < 3; ++round) {
     Eigen::Matrix<double, 6, 6> a = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
@@ -95,11 +108,30 @@ void drop_specks(cv::Mat& edges, int least) {
       if (!keep[labels.at<int>(y, x)]) edges.at<std::uint8_t>(y, x) = 0;
 }
 
-/// How far a colour is from being the ground's colour `lit` in less light: that scales (L + 16, a, b) by one factor.
-float distance_to_shade(const cv::Vec3f& colour, const cv::Vec3f& lit) {
+/// Squared: how far a colour is from being the ground's colour `lit` in less light: that scales (L + 16, a, b) by one
+/// factor.
+float distance2_to_shade(const cv::Vec3f& colour, const cv::Vec3f& lit) {
   const cv::Vec3f c(colour[0] + 16, colour[1], colour[2]), g(lit[0] + 16, lit[1], lit[2]);
   const float t = std::clamp(c.dot(g) / g.dot(g), 0.68f, 1.03f);
-  return std::sqrt(distance2(c, t * g));
+  return distance2(c, t * g);
+}
+
+/// For each of the two phases and each pattern of the eight neighbours (clockwise from above, one bit each): may the
+/// pixel go?
+std::array<std::array<bool, 256>, 2> removal_table() {
+  std::array<std::array<bool, 256>, 2> table{};
+  for (unsigned pattern = 0; pattern < 256; ++pattern) {
+    const auto on = [&](int k) { return (pattern >> (k % 8) & 1u) != 0; };
+    int count = 0, turns = 0;
+    for (int k = 0; k < 8; ++k) {
+      count += on(k);
+      turns += !on(k) && on(k + 1);
+    }
+    if (count < 2 || count > 6 || turns != 1) continue;
+    table[0][pattern] = !(on(0) && on(2) && on(4)) && !(on(2) && on(4) && on(6));
+    table[1][pattern] = !(on(0) && on(2) && on(6)) && !(on(0) && on(4) && on(6));
+  }
+  return table;
 }
 
 }  // namespace
@@ -111,23 +143,19 @@ cv::Mat thin_edges(const cv::Mat& edges) {
   for (int y = 1; y + 1 < e.rows; ++y)
     for (int x = 1; x + 1 < e.cols; ++x)
       if (e.at<std::uint8_t>(y, x)) live.emplace_back(x, y);
+  const auto step = static_cast<std::ptrdiff_t>(e.step);
+  const std::ptrdiff_t around[8] = {-step, 1 - step, 1, step + 1, step, step - 1, -1, -step - 1};
+  static const std::array<std::array<bool, 256>, 2> removable = removal_table();
   bool changed = true;
   while (changed) {
     changed = false;
-    for (int phase = 0; phase < 2; ++phase) {
+    for (std::size_t phase = 0; phase < 2; ++phase) {
       drop.clear();
       for (const cv::Point& q : live) {
-        const auto on = [&](int dx, int dy) { return e.at<std::uint8_t>(q.y + dy, q.x + dx) ? 1 : 0; };
-        const int n[8] = {on(0, -1), on(1, -1), on(1, 0), on(1, 1), on(0, 1), on(-1, 1), on(-1, 0), on(-1, -1)};
-        int count = 0, turns = 0;
-        for (int k = 0; k < 8; ++k) {
-          count += n[k];
-          turns += !n[k] && n[(k + 1) % 8];
-        }
-        if (count < 2 || count > 6 || turns != 1) continue;
-        const bool side = phase == 0 ? !(n[0] && n[2] && n[4]) && !(n[2] && n[4] && n[6])
-                                     : !(n[0] && n[2] && n[6]) && !(n[0] && n[4] && n[6]);
-        if (side) drop.push_back(q);
+        const std::uint8_t* p = e.ptr(q.y) + q.x;
+        unsigned neighbours = 0;
+        for (int k = 0; k < 8; ++k) neighbours |= (p[around[k]] ? 1u : 0u) << k;
+        if (removable[phase][neighbours]) drop.push_back(q);
       }
       for (const cv::Point& q : drop) e.at<std::uint8_t>(q) = 0;
       if (!drop.empty()) {
@@ -152,10 +180,10 @@ cv::Vec3b unused_colour(const cv::Mat& rgb) {
           static_cast<std::uint8_t>(free & 255)};
 }
 
-Scan scan_edges(const cv::Mat& rgb) {
+Scan scan_edges(const WorkPicture& work) {
   Scan scan;
+  const cv::Mat &rgb = work.rgb, &magnitude = work.edges, &lab = work.lab;
   const int side = std::max(rgb.cols, rgb.rows);
-  const cv::Mat magnitude = sobel_magnitude(rgb), lab = lab_from_rgb(rgb);
   const cv::Mat frame = border_band(rgb.size(), std::max(2, side / 60));
   const float noise = percentile(magnitude, frame, 0.97);
   const float threshold = std::max(24.0f, 2.0f * noise);
@@ -185,12 +213,17 @@ Scan scan_edges(const cv::Mat& rgb) {
   // flooded from outside and stop at edges; soft shadows, which have the board's hue and no edge, go with them.
   const float near = std::max(1.2f, static_cast<float>(3.5 * board.sigma));
   cv::Mat like(rgb.size(), CV_8U), shaded(rgb.size(), CV_8U);
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x) {
-      const cv::Vec3f colour = lab.at<cv::Vec3f>(y, x), lit = board.at(y, x);
-      like.at<std::uint8_t>(y, x) = distance2(colour, lit) < near * near ? 255 : 0;
-      shaded.at<std::uint8_t>(y, x) = distance_to_shade(colour, lit) < std::max(2.5f, near) ? 255 : 0;
+  const float near2 = near * near, shade2 = std::max(6.25f, near2);
+  std::vector<cv::Vec3f> lit_row(static_cast<std::size_t>(rgb.cols));
+  for (int y = 0; y < rgb.rows; ++y) {
+    board.row(y, lit_row);
+    const cv::Vec3f* colour = lab.ptr<cv::Vec3f>(y);
+    std::uint8_t *l = like.ptr(y), *s = shaded.ptr(y);
+    for (std::size_t x = 0; x < lit_row.size(); ++x) {
+      l[x] = distance2(colour[x], lit_row[x]) < near2 ? 255 : 0;
+      s[x] = distance2_to_shade(colour[x], lit_row[x]) < shade2 ? 255 : 0;
     }
+  }
   // Where the garment itself could be the board in shade (grey on white), shade says nothing.
   cv::Mat deep;
   const int depth_in = std::max(2, static_cast<int>(0.05 * std::sqrt(share * static_cast<double>(region.total()))));

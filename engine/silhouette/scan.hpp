@@ -3,6 +3,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "picture.hpp"
+
 namespace vitrine {
 
 /// Outcome of the paper's own method (III.A).
@@ -15,7 +17,7 @@ struct Scan {
   std::string doubt;  ///< empty when the result can be trusted
 };
 
-Scan scan_edges(const cv::Mat& rgb);
+Scan scan_edges(const WorkPicture& work);
 
 /// Zhang and Suen's thinning: edges of one pixel width.
 cv::Mat thin_edges(const cv::Mat& edges);

@@ -25,6 +25,8 @@ Image to_image(const cv::Mat& m) {
   return image;
 }
 
+constexpr int cut_side = 176;  ///< [px] of the picture in which colours are told apart
+
 int loose_radius(const cv::Mat& mask) {
   return std::max(1, static_cast<int>(std::lround(0.012 * std::sqrt(static_cast<double>(cv::countNonZero(mask))))));
 }
@@ -37,28 +39,40 @@ bool has_cutout(const Image& alpha) {
   return cv::countNonZero(a < 128) >= 0.02 * static_cast<double>(a.total());
 }
 
-/// The cut at working size, brought back to the photo's own size.
-cv::Mat colour_mask(const cv::Mat& rgb, int working_side, double& second) {
-  const int side = std::max(rgb.cols, rgb.rows);
-  const double scale = std::min(1.0, static_cast<double>(std::max(working_side, 64)) / side);
+cv::Mat reduced(const cv::Mat& rgb, int side) {
   cv::Mat small = rgb;
-  if (scale < 1) cv::resize(rgb, small, {}, scale, scale, cv::INTER_AREA);
-  cv::Mat like, cut = cut_by_colour(small, like);
-  if (cv::countNonZero(cut) == 0) return cv::Mat::zeros(rgb.size(), CV_8U);
-  cut = fill_enclosed(main_piece(cut, &second), like);
-  cut = without_loose_ends(cut, loose_radius(cut));
-  if (scale < 1) {
-    cv::resize(cut, cut, rgb.size(), 0, 0, cv::INTER_LINEAR);
-    cut = cut > 127;
+  // Halving is much cheaper than any other step.
+  while (std::max(small.cols, small.rows) >= 2 * side) {
+    cv::Mat half;
+    cv::resize(small, half, {(small.cols + 1) / 2, (small.rows + 1) / 2}, 0, 0, cv::INTER_AREA);
+    small = half;
   }
-  return cut;
+  const double scale = static_cast<double>(side) / std::max(small.cols, small.rows);
+  if (scale >= 1) return small;
+  cv::Mat out;
+  cv::resize(small, out, {std::max(1, cvRound(small.cols * scale)), std::max(1, cvRound(small.rows * scale))}, 0, 0,
+             cv::INTER_AREA);
+  return out;
+}
+
+/// The stronger model: a cut of the colours of a small picture, sharpened on the working picture.
+cv::Mat colour_mask(const WorkPicture& work, const cv::Mat& known, double& second) {
+  ColourCut cut;
+  const cv::Mat small = reduced(work.rgb, cut_side);
+  cv::Mat mask = cut.start(small, known), like;
+  if (cv::countNonZero(mask) == 0) return cv::Mat::zeros(work.rgb.size(), CV_8U);
+  const int reach = static_cast<int>(std::ceil(2.0 * work.rgb.cols / small.cols));
+  mask = cut.sharpen(work.lab, main_piece(mask, &second), reach, like);
+  mask = fill_enclosed(main_piece(mask), like);
+  return without_loose_ends(mask, loose_radius(mask));
 }
 
 Result<Silhouette> find(const Photo& photo, const SilhouetteOptions& options) {
   const cv::Mat rgb = view(photo.rgb);
+  const WorkPicture work(reduced(rgb, std::max(options.working_side, 64)));
   Silhouette out;
-  cv::Mat mask;
-  double second = 0;  // the next largest piece, as a share of the garment
+  cv::Mat mask, rough;  // the garment at the photo's size and at working size
+  double second = 0;    // the next largest piece, as a share of the garment
   if (!photo.mask.empty()) {
     out.method = "mask";
     out.labels = photo.mask;
@@ -69,28 +83,18 @@ Result<Silhouette> find(const Photo& photo, const SilhouetteOptions& options) {
     const cv::Mat piece = main_piece(mask, &second);
     mask = fill_enclosed(piece, ~piece);
   } else {
-    Scan scan = scan_edges(rgb);
-    if (scan.doubt.empty()) {
-      out.method = "sobel";
-      second = scan.second;
-      mask = without_loose_ends(scan.mask, loose_radius(scan.mask));
-      const double lost = 1 - cv::countNonZero(mask) / std::max(1.0, static_cast<double>(cv::countNonZero(scan.mask)));
-      if (lost > 0.01) scan.doubt = "something thin hangs on the garment";
-    }
-    if (!scan.doubt.empty()) {
-      out.method = "colour";
-      out.method_reason = scan.doubt;
-      mask = colour_mask(rgb, options.working_side, second);
-    }
-    if (cv::countNonZero(mask) > 0) {
-      const int side = std::max(rgb.cols, rgb.rows);
-      const int reach = out.method == "sobel" ? 2 : std::max(2, 2 * side / std::max(options.working_side, 64));
-      mask = main_piece(refine_contour(rgb, mask, reach));
-    }
+    const Scan scan = scan_edges(work);
+    out.method = scan.doubt.empty() ? "sobel" : "colour";
+    out.method_reason = scan.doubt;
+    rough = colour_mask(work, scan.doubt.empty() ? scan.mask : cv::Mat(), second);
+    if (scan.doubt.empty()) second = std::max(second, scan.second);
   }
+  if (rough.empty()) cv::resize(mask, rough, work.rgb.size(), 0, 0, cv::INTER_NEAREST);
+  const Sides sides(work.lab, rough, contour_reach);
   if (second > several_share) return several_garments(photo);
-  std::optional<Error> refused = judge(photo, mask, options, out);
+  std::optional<Error> refused = judge(photo, work, rough, sides, options, out);
   if (refused) return *refused;
+  if (mask.empty()) mask = without_specks(refine_contour(rgb, rough, sides) > 127);
   if (out.method != "mask") out.labels = to_image(mask);
   return out;
 }

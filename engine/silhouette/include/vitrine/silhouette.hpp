@@ -10,7 +10,7 @@
 namespace vitrine {
 
 struct SilhouetteOptions {
-  int working_side = 512;     ///< [px] longer side of the picture the models run on
+  int working_side = 400;     ///< [px] longer side of the picture the models run on
   double min_area = 0.02;     ///< [-] garment / photo area below which the photo is refused (TOO_SMALL)
   double min_contrast = 0.0;  ///< [-] 0 = the room's own gate
 };

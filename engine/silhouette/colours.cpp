@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "colours.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "picture.hpp"
+
+namespace vitrine {
+namespace {
+
+using Vec3d = Eigen::Vector3d;
+using Vec5d = Eigen::Matrix<double, 5, 1>;
+
+constexpr int ground_parts = 10;
+constexpr int cloth_parts = 6;
+constexpr std::size_t max_samples = 1600;
+constexpr int first_rounds = 6, later_rounds = 2;
+constexpr double darkest_shade = 0.58;      ///< cube root of the least light that is left in a cast shadow
+constexpr double shade_penalty = 2.0;       ///< [nat] shade is rarer than lit ground
+constexpr double shade_depth_penalty = 12;  ///< [nat] per unit of 1 - t: deep shade is rarer than a soft one
+constexpr double place_scale = 30;          ///< picture side in the unit of Lab, for colour-and-place samples
+constexpr int cells = 24;                   ///< cells along the longer side in which the ground's light is constant
+
+template <class Sample, class Get>
+std::vector<Sample> collect(const cv::Mat& mask, Get get) {
+  const std::size_t total = static_cast<std::size_t>(cv::countNonZero(mask));
+  const std::size_t step = std::max<std::size_t>(1, total / max_samples);
+  std::vector<Sample> out;
+  std::size_t k = 0;
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x)
+      // The stride is broken up by a multiplicative hash: a plain stride would fall into step with stripes.
+      if (mask.at<std::uint8_t>(y, x) && (k++ * 2654435761u >> 7) % step == 0) out.push_back(get(y, x));
+  return out;
+}
+
+Vec3d colour_at(const cv::Mat& lab, int y, int x) {
+  const cv::Vec3f c = lab.at<cv::Vec3f>(y, x);
+  return {c[0], c[1], c[2]};
+}
+
+Eigen::Matrix3f factor(const Eigen::Matrix3d& inverse) {
+  return Eigen::Matrix3f(Eigen::Matrix3d(inverse.llt().matrixU()).cast<float>());
+}
+
+float log_norm(const Eigen::Matrix3d& covariance) {
+  return static_cast<float>(-1.5 * std::log(2 * std::numbers::pi) -
+                            0.5 * std::log(std::max(covariance.determinant(), 1e-12)));
+}
+
+/// e^x to about 0.1 %, for x <= 20; 0 below -80. Plain arithmetic, so that rows are computed four pixels at a time.
+inline float quick_exp(float x) {
+  const float t = std::max(x, -80.0f) * 1.44269504f + 127.0f;
+  const int whole = static_cast<int>(t);
+  const float rest = t - static_cast<float>(whole);
+  const float mantissa = 1.0f + rest * (0.69606564f + rest * (0.22449433f + rest * 0.07944023f));
+  return std::bit_cast<float>(whole << 23) * mantissa;
+}
+
+/// Log of a sum of densities along a row: the sum itself, and for colours far from all of them the largest log.
+struct LogSum {
+  std::vector<float> sum, largest;
+  explicit LogSum(int n) : sum(static_cast<std::size_t>(n)), largest(static_cast<std::size_t>(n)) {}
+  void clear() {
+    std::fill(sum.begin(), sum.end(), 0.0f);
+    std::fill(largest.begin(), largest.end(), -1e30f);
+  }
+  float at(int i) const {
+    const auto k = static_cast<std::size_t>(i);
+    return sum[k] > 1e-25f ? std::log(sum[k]) : largest[k];
+  }
+};
+
+/// Adds the density exp(level - |U (colour - mean)|^2 / 2) of a row of pixels.
+void add_part(const float* l, const float* a, const float* b, int n, const Eigen::Matrix3f& u,
+              const Eigen::Vector3f& mean, float level, LogSum& out) {
+  const float u00 = u(0, 0), u01 = u(0, 1), u02 = u(0, 2), u11 = u(1, 1), u12 = u(1, 2), u22 = u(2, 2);
+  const float m0 = mean[0], m1 = mean[1], m2 = mean[2];
+  float *sum = out.sum.data(), *largest = out.largest.data();
+  for (int i = 0; i < n; ++i) {
+    const float d0 = l[i] - m0, d1 = a[i] - m1, d2 = b[i] - m2;
+    const float e0 = u00 * d0 + u01 * d1 + u02 * d2, e1 = u11 * d1 + u12 * d2, e2 = u22 * d2;
+    const float value = level - 0.5f * (e0 * e0 + e1 * e1 + e2 * e2);
+    sum[i] += quick_exp(value);
+    largest[i] = largest[i] > value ? largest[i] : value;
+  }
+}
+
+/// The same for a mean that may be darkened by any factor of a shade.
+void add_shade(const float* l, const float* a, const float* b, int n, const Eigen::Matrix3f& u,
+               const Eigen::Vector3f& lit, const Eigen::Vector3f& towards, float level, LogSum& out) {
+  const float u00 = u(0, 0), u01 = u(0, 1), u02 = u(0, 2), u11 = u(1, 1), u12 = u(1, 2), u22 = u(2, 2);
+  const float m0 = lit[0], m1 = lit[1], m2 = lit[2], t0 = towards[0], t1 = towards[1], t2 = towards[2];
+  const float low = static_cast<float>(darkest_shade), high = 0.97f;
+  const float depth = static_cast<float>(shade_depth_penalty);
+  float *sum = out.sum.data(), *largest = out.largest.data();
+  for (int i = 0; i < n; ++i) {
+    const float wish = t0 * l[i] + t1 * a[i] + t2 * b[i];
+    const float t = wish < low ? low : wish > high ? high : wish;
+    const float d0 = l[i] - t * m0, d1 = a[i] - t * m1, d2 = b[i] - t * m2;
+    const float e0 = u00 * d0 + u01 * d1 + u02 * d2, e1 = u11 * d1 + u12 * d2, e2 = u22 * d2;
+    const float value = level - depth * (1 - t) - 0.5f * (e0 * e0 + e1 * e1 + e2 * e2);
+    sum[i] += quick_exp(value);
+    largest[i] = largest[i] > value ? largest[i] : value;
+  }
+}
+
+}  // namespace
+
+Planes::Planes(const cv::Mat& lab) {
+  std::array<cv::Mat, 3> channel;
+  cv::split(lab, channel.data());
+  l = channel[0] + 16;  // the lift makes shade a common factor
+  a = channel[1];
+  b = channel[2];
+}
+
+void Ground::fit(const cv::Mat& lab, const cv::Mat& mask) {
+  Vec5d floor;
+  floor << 1.0, 0.6, 0.6, 4, 4;
+  const double side = std::max(lab.cols, lab.rows);
+  const auto samples = collect<Vec5d>(mask, [&](int y, int x) {
+    Vec5d v;
+    v << colour_at(lab, y, x), (x + 0.5) / side * place_scale, (y + 0.5) / side * place_scale;
+    return v;
+  });
+  if (joint_.empty())
+    joint_.fit(samples, ground_parts, floor, first_rounds);
+  else
+    joint_.refine(samples, later_rounds);
+  parts_.clear();
+  for (const auto& p : joint_.parts()) {
+    Part q;
+    q.weight = p.weight;
+    q.place_mean = p.mean.tail<2>();
+    const Eigen::Matrix2d place = p.covariance.bottomRightCorner<2, 2>();
+    q.place_inverse = place.inverse();
+    q.place_norm = 1 / std::sqrt(std::max(place.determinant(), 1e-12));
+    q.slope = p.covariance.topRightCorner<3, 2>() * q.place_inverse;
+    q.colour_mean = p.mean.head<3>();
+    const Eigen::Matrix3d c = p.covariance.topLeftCorner<3, 3>() - q.slope * p.covariance.bottomLeftCorner<2, 3>();
+    q.colour_factor = factor(c.inverse());
+    q.colour_log_norm = log_norm(c);
+    const Eigen::Matrix3d shade = c + Vec3d(1.5, 3, 3).asDiagonal().toDenseMatrix();
+    q.shade_inverse = shade.inverse();
+    q.shade_factor = factor(q.shade_inverse);
+    q.shade_log_norm = log_norm(shade);
+    parts_.push_back(q);
+  }
+}
+
+void Ground::score(const Planes& picture, const cv::Mat& where, bool shadows, cv::Mat& score) const {
+  const int w = picture.size().width, h = picture.size().height, side = std::max(w, h);
+  const int cell = std::max(1, (side + cells - 1) / cells);
+  const Vec3d lift(16, 0, 0);
+  LogSum density(cell);
+  for (int y0 = 0; y0 < h; y0 += cell)
+    for (int x0 = 0; x0 < w; x0 += cell) {
+      const cv::Rect box(x0, y0, std::min(cell, w - x0), std::min(cell, h - y0));
+      if (cv::countNonZero(where(box)) == 0) continue;
+      const Eigen::Vector2d place((x0 + 0.5 * box.width) / side * place_scale,
+                                  (y0 + 0.5 * box.height) / side * place_scale);
+      struct Here {
+        Eigen::Vector3f lit, towards;
+        float level, shade_level;
+      };
+      std::array<Here, Mixture<5>::max_parts> here;
+      std::array<double, Mixture<5>::max_parts> share;
+      const std::size_t n = std::min<std::size_t>(parts_.size(), Mixture<5>::max_parts);
+      double total = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const Part& p = parts_[k];
+        const Eigen::Vector2d at = place - p.place_mean;
+        const double distance = at.dot(p.place_inverse * at);
+        // Half of a part's weight holds everywhere: planks and tiles come back where no sample was taken.
+        share[k] = p.weight * (0.5 * std::exp(-0.5 * distance) * p.place_norm + 0.5 / (place_scale * place_scale));
+        total += share[k];
+        // The slope is trusted within two standard deviations; beyond, the colour stays what it was there.
+        const double reach = distance > 4 ? 2 / std::sqrt(distance) : 1;
+        const Vec3d lit = p.colour_mean + reach * (p.slope * at) + lift;
+        const Vec3d weighted = p.shade_inverse * lit;
+        here[k].lit = lit.cast<float>();
+        here[k].towards = (weighted / std::max(weighted.dot(lit), 1e-9)).cast<float>();
+      }
+      for (std::size_t k = 0; k < n; ++k) {
+        const float log_share = static_cast<float>(std::log(std::max(share[k] / total, 1e-12)));
+        here[k].level = log_share + parts_[k].colour_log_norm;
+        here[k].shade_level = log_share + parts_[k].shade_log_norm - static_cast<float>(shade_penalty);
+      }
+      for (int y = y0; y < y0 + box.height; ++y) {
+        const float *l = picture.l.ptr<float>(y) + x0, *a = picture.a.ptr<float>(y) + x0,
+                    *b = picture.b.ptr<float>(y) + x0;
+        density.clear();
+        for (std::size_t k = 0; k < n; ++k) {
+          add_part(l, a, b, box.width, parts_[k].colour_factor, here[k].lit, here[k].level, density);
+          if (shadows)
+            add_shade(l, a, b, box.width, parts_[k].shade_factor, here[k].lit, here[k].towards, here[k].shade_level,
+                      density);
+        }
+        const std::uint8_t* wanted = where.ptr(y) + x0;
+        float* out = score.ptr<float>(y) + x0;
+        for (int i = 0; i < box.width; ++i)
+          if (wanted[i]) out[i] = -density.at(i);
+      }
+    }
+}
+
+void Cloth::fit(const cv::Mat& lab, const cv::Mat& mask) {
+  const auto samples = collect<Vec3d>(mask, [&](int y, int x) { return colour_at(lab, y, x); });
+  // Always from the start: the first cut's cloth often holds ground, whose parts would live on.
+  mixture_.fit(samples, cloth_parts, Vec3d(1.0, 0.6, 0.6), first_rounds);
+}
+
+void Cloth::add_score(const Planes& picture, const cv::Mat& where, cv::Mat& score) const {
+  const int w = picture.size().width, h = picture.size().height;
+  LogSum density(w);
+  std::vector<Eigen::Matrix3f> factors;
+  for (const auto& p : mixture_.parts()) factors.push_back(factor(p.inverse));
+  for (int y = 0; y < h; ++y) {
+    const std::uint8_t* wanted = where.ptr(y);
+    const int first = static_cast<int>(std::find_if(wanted, wanted + w, [](auto v) { return v != 0; }) - wanted);
+    if (first == w) continue;
+    int last = w;
+    while (!wanted[last - 1]) --last;
+    density.clear();
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      const auto& p = mixture_.parts()[k];
+      Eigen::Vector3f mean = p.mean.cast<float>();
+      mean[0] += 16;
+      add_part(picture.l.ptr<float>(y) + first, picture.a.ptr<float>(y) + first, picture.b.ptr<float>(y) + first,
+               last - first, factors[k], mean, static_cast<float>(p.log_norm), density);
+    }
+    float* out = score.ptr<float>(y);
+    for (int x = first; x < last; ++x)
+      if (wanted[x]) out[x] += density.at(x - first);
+  }
+}
+
+cv::Mat ground_seed(const cv::Mat& lab) {
+  const int width = std::max(3, static_cast<int>(0.03 * std::min(lab.rows, lab.cols)));
+  cv::Mat seed = border_band(lab.size(), width);
+  Mixture<3> colours;
+  colours.fit(collect<Vec3d>(seed, [&](int y, int x) { return colour_at(lab, y, x); }), 6, Vec3d(2, 1, 1), 6);
+  const cv::Rect middle(lab.cols / 4, lab.rows / 4, lab.cols / 2, lab.rows / 2);
+  std::vector<double> border(colours.parts().size(), 0), centre(border);
+  cv::Mat owner(lab.size(), CV_8U, cv::Scalar(255));
+  for (int y = 0; y < lab.rows; ++y)
+    for (int x = 0; x < lab.cols; ++x) {
+      const bool in_seed = seed.at<std::uint8_t>(y, x) != 0, in_middle = middle.contains({x, y});
+      if (!in_seed && !in_middle) continue;
+      int best = -1;
+      double least = 1e300;
+      for (std::size_t k = 0; k < colours.parts().size(); ++k) {
+        const Vec3d d = colour_at(lab, y, x) - colours.parts()[k].mean;
+        const double m = d.dot(colours.parts()[k].inverse * d);
+        if (m < least) least = m, best = static_cast<int>(k);
+      }
+      if (best < 0) continue;
+      if (in_seed) owner.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(best), border[best] += 1;
+      if (in_middle && least < 12) centre[best] += 1;
+    }
+  const double border_total = std::max(1, cv::countNonZero(seed)), centre_total = std::max(1, middle.area());
+  for (std::size_t k = 0; k < border.size(); ++k)
+    if (border[k] / border_total < 0.15 && centre[k] / centre_total > 3 * border[k] / border_total)
+      seed.setTo(0, owner == static_cast<double>(k));
+  return seed;
+}
+
+}  // namespace vitrine
