@@ -7,27 +7,63 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "matching.hpp"
+#include "fitting.hpp"
 #include "neckline.hpp"
 #include "outline.hpp"
-#include "sleeves.hpp"
 
 namespace vitrine {
 namespace {
 
 using namespace features_detail;
 
-constexpr double kMinScore = 0.40;    // below: another garment
-constexpr double kHairShare = 0.002;  // threads thinner than twice this share of the diagonal are no outline
+constexpr double kSure = 0.9;      // score of a fit that needs no comparison with other garments
+constexpr double kClearly = 1.12;  // times the score asked for: another garment fits clearly better
+
+/// Whether the tables agree with each other.
+bool usable(const GarmentTemplate& garment) {
+  const std::size_t count = garment.features.size();
+  bool good = count >= 3 && !garment.poses.empty() && garment.edges.size() == count;
+  for (const TemplatePose& pose : garment.poses) {
+    good = good && pose.uv.size() == count && pose.radius.size() == count;
+    for (const Vec2& uv : pose.uv) good = good && uv.allFinite();
+    for (const double r : pose.radius) good = good && std::isfinite(r) && r > 0;
+  }
+  for (std::size_t i = 0; good && i < garment.edges.size(); ++i)
+    good = garment.edges[i].from >= 0 && garment.edges[i].from < static_cast<int>(count) &&
+           garment.edges[i].to == garment.edges[(i + 1) % count].from;
+  for (std::size_t i = 0; good && i < count; ++i) good = garment.features[i].mirror < static_cast<int>(count);
+  return good;
+}
+
+std::string two_digits(double value) {
+  return std::to_string(value).substr(0, 4);
+}
 
 std::string file_of(const Photo& photo) {
   return photo.path.empty() ? std::string("the photo") : photo.path;
 }
 
-Error not_this_garment(const Photo& photo, const GarmentTemplate& garment, const std::string& why) {
-  return {
+Error not_this_garment(const Photo& photo, const GarmentTemplate& garment, const std::string& why,
+                       const std::optional<GarmentFit>& better) {
+  Error error{
       Cause::unusable, "NOT_THIS_GARMENT", file_of(photo) + " does not look like a " + garment.id + ": " + why + ".",
       "Choose the garment type that the photo shows, or lay the garment out flat with its sleeves off its body.", ""};
+  if (better)
+    error.remedy = "Choose the garment type " + better->id + ", which fits best (score " + two_digits(better->score) +
+                   "), or lay the garment out flat with its sleeves off its body.";
+  return error;
+}
+
+/// The garment that fits clearly better than one with `score`.
+std::optional<GarmentFit> better_garment(const cv::Mat& mask, const GarmentTemplate& garment, double score,
+                                         const FeatureOptions& options) {
+  std::optional<GarmentFit> best;
+  for (const GarmentTemplate& other : options.others) {
+    if (other.id == garment.id || !usable(other)) continue;
+    const double s = fit_garment(mask, other, options).score;
+    if (s >= kMinScore && s > kClearly * score && (!best || s > best->score)) best = GarmentFit{other.id, s};
+  }
+  return best;
 }
 
 std::optional<Error> check_input(const Photo& photo, const Silhouette& silhouette, const GarmentTemplate& garment,
@@ -42,18 +78,7 @@ std::optional<Error> check_input(const Photo& photo, const Silhouette& silhouett
   if (rgb.channels != 3 || rgb.width != labels.width || rgb.height != labels.height || rgb.data.size() != bytes(rgb))
     return Error{Cause::internal, "NO_OUTLINE", file_of(photo) + ": photo and silhouette differ in size.",
                  "Report this as a defect.", ""};
-  const std::size_t count = garment.features.size();
-  bool usable = count >= 3 && !garment.poses.empty() && garment.edges.size() == count;
-  for (const TemplatePose& pose : garment.poses) {
-    usable = usable && pose.uv.size() == count && pose.radius.size() == count;
-    for (const Vec2& uv : pose.uv) usable = usable && uv.allFinite();
-    for (const double r : pose.radius) usable = usable && std::isfinite(r) && r > 0;
-  }
-  for (std::size_t i = 0; usable && i < garment.edges.size(); ++i)
-    usable = garment.edges[i].from >= 0 && garment.edges[i].from < static_cast<int>(count) &&
-             garment.edges[i].to == garment.edges[(i + 1) % count].from;
-  for (std::size_t i = 0; usable && i < count; ++i) usable = garment.features[i].mirror < static_cast<int>(count);
-  if (!usable)
+  if (!usable(garment))
     return Error{Cause::plugin, "NO_POSES", "Garment " + garment.id + " (" + garment.plugin + ") has no usable poses.",
                  "Run `vitrine plugin validate` on that plugin.", ""};
   if (!std::isfinite(options.smoothing) || !std::isfinite(options.min_turn_deg) || options.smoothing < 0 ||
@@ -172,56 +197,6 @@ bool make_contour(const Outline& outline, std::vector<int> place, Features& feat
   return false;
 }
 
-/// Clips of a hanger bite notches into a waistband; a garment without sleeves and neckline has no narrow notch of its
-/// own.
-void close_notches(cv::Mat& mask) {
-  const cv::Rect box = cv::boundingRect(mask);
-  const int reach = std::max(1, static_cast<int>(0.028 * std::hypot(box.width, box.height)));
-  cv::Mat padded;
-  cv::copyMakeBorder(mask, padded, reach, reach, reach, reach, cv::BORDER_CONSTANT, 0);
-  cv::morphologyEx(padded, padded, cv::MORPH_CLOSE,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
-  mask = padded(cv::Rect(reach, reach, mask.cols, mask.rows)).clone();
-}
-
-/// Sleeves without any gap to the body: where a limb's armpit was not found as a corner, the template's place is tried.
-/// True when the outline has the notch of a cuff on the body, so that this is what is wrong with it.
-bool free_hidden_sleeves(const GarmentTemplate& garment, const FeatureOptions& options, cv::Mat& mask, Outline& outline,
-                         Match& match, std::vector<std::string>& warnings) {
-  std::vector<std::pair<int, int>> closed;  // armpit feature, side
-  for (const TemplateLimb& limb : garment.limbs)
-    for (const int f : {limb.root_a, limb.root_b})
-      if (f >= 0 && f < static_cast<int>(garment.features.size()) && garment.features[f].turn == Turn::concave &&
-          (match.features.empty() || !match.features[f].snapped))
-        closed.emplace_back(f, garment.poses[0].uv[f].x() < 0.5 ? -1 : 1);
-  if (closed.empty()) return false;
-  bool notched = false;
-  cv::Mat best_mask;
-  Outline best_outline;
-  for (const TemplatePose& pose : garment.poses) {
-    cv::Mat tried = mask.clone();
-    bool cut = false;
-    for (const auto& [f, side] : closed) {
-      const Vec2 armpit(outline.box.x + pose.uv[f].x() * outline.box.width,
-                        outline.box.y + pose.uv[f].y() * outline.box.height);
-      cut = cut_hidden_gap(tried, outline, armpit, side) || cut;
-    }
-    if (!cut) continue;
-    notched = true;
-    Outline freed = trace_outline(tried, options);
-    Match again = match_template(freed, tried, garment);
-    if (again.score <= std::max(match.score, kMinScore)) continue;
-    match = std::move(again);
-    best_mask = tried;
-    best_outline = std::move(freed);
-  }
-  if (best_mask.empty()) return notched;
-  mask = best_mask;
-  outline = std::move(best_outline);
-  warnings.push_back("SLEEVE_ON_BODY");
-  return notched;
-}
-
 struct Work {
   const Photo& photo;
   const GarmentTemplate& garment;
@@ -284,27 +259,28 @@ Result<Features> find(const Photo& photo, const Silhouette& silhouette, const Ga
   cv::Mat mask = labels == label_outside;
   const Error no_outline{Cause::unusable, "NO_OUTLINE", file_of(photo) + ": the garment has no closed outline.",
                          "Give a photo in which the whole garment is seen, or a mask.", ""};
-  const double size = std::hypot(mask.cols, mask.rows);
-  mask = clean_mask(mask, std::max(1, static_cast<int>(kHairShare * size / 2)));
+  mask = whole_piece(mask);
   if (cv::countNonZero(mask) < 400) return no_outline;
-  const SleeveCuts cuts = open_sleeve_gaps(mask, garment, options);
-  mask = cuts.mask;
-  if (garment.limbs.empty() && garment.neck_edge() < 0) close_notches(mask);
-  Outline outline = trace_outline(mask, options);
-  if (outline.chain.empty()) return no_outline;
-
-  Match match = match_template(outline, mask, garment);
-  const bool hidden = free_hidden_sleeves(garment, options, mask, outline, match, features.warnings);
+  const cv::Mat piece = mask;
+  Fit fit = fit_garment(mask, garment, options);
+  if (fit.outline.chain.empty()) return no_outline;
+  mask = fit.mask;
+  Outline outline = std::move(fit.outline);
+  const Match match = std::move(fit.match);
+  features.warnings = fit.warnings;
+  const double score = fit.score;
+  const std::optional<GarmentFit> better =
+      score < kSure ? better_garment(piece, garment, score, options) : std::optional<GarmentFit>{};
   if (match.pose < 0 || match.features.empty())
-    return not_this_garment(photo, garment, "no way to lay it out matches the outline");
-  double score = match.score;
-  if (garment.limbs.empty()) score *= std::exp(-120 * cuts.gap_share);
-  if (score < kMinScore && hidden)
+    return not_this_garment(photo, garment, "no way to lay it out matches the outline", better);
+  if (score < kMinScore && fit.hidden_sleeve && !better)
     return Error{Cause::unusable, "SLEEVE_ON_BODY",
                  file_of(photo) + ": a sleeve lies on the body without a gap that shows where it ends.",
                  "Lay the sleeves off the body, so that the ground is seen between them.", ""};
-  if (score < kMinScore)
-    return not_this_garment(photo, garment, match.why + " (score " + std::to_string(score).substr(0, 4) + ")");
+  if (better || score < kMinScore) {
+    const std::string why = score < kMinScore ? match.evidence.why : better->id + " fits its outline better";
+    return not_this_garment(photo, garment, why + " (score " + two_digits(score) + ")", better);
+  }
   features.pose = garment.poses[match.pose].name;
   features.score = score;
   std::vector<int> place;
@@ -344,6 +320,26 @@ Result<Features> find_features(const Photo& photo, const Silhouette& silhouette,
   } catch (const std::exception& e) {
     return Error{Cause::internal, "FEATURES_FAILED", file_of(photo) + ": " + e.what(), "Report this as a defect.", ""};
   }
+}
+
+std::vector<GarmentFit> suggest_garment(const Image& labels, std::span<const GarmentTemplate> garments,
+                                        const FeatureOptions& options) {
+  std::vector<GarmentFit> ranking;
+  for (const GarmentTemplate& garment : garments) ranking.push_back({garment.id, 0});
+  if (labels.channels != 1 || labels.width < 8 || labels.height < 8 || labels.width > 20000 || labels.height > 20000 ||
+      labels.data.size() != static_cast<std::size_t>(labels.width) * labels.height)
+    return ranking;
+  try {
+    const cv::Mat view(labels.height, labels.width, CV_8U, const_cast<std::uint8_t*>(labels.data.data()));
+    const cv::Mat mask = whole_piece(view == label_outside);
+    for (std::size_t i = 0; i < garments.size(); ++i)
+      if (usable(garments[i])) ranking[i].score = fit_garment(mask, garments[i], options).score;
+  } catch (const std::exception&) {
+    for (GarmentFit& fit : ranking) fit.score = 0;  // a shape that cannot be measured suggests nothing
+  }
+  std::stable_sort(ranking.begin(), ranking.end(),
+                   [](const GarmentFit& a, const GarmentFit& b) { return a.score > b.score; });
+  return ranking;
 }
 
 }  // namespace vitrine

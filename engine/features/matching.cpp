@@ -15,8 +15,6 @@ constexpr double kReward = 0.9;     // what such a corner is worth, in squared s
 constexpr double kWrongTurn = 0.6;  // penalty for a corner that turns the other way
 constexpr double kShape = 0.35;     // weight of the distance between neighbouring features
 constexpr double kFar = 1e18;
-constexpr double kLongArm = 0.09;  // arm that sees past a bite of 1.5 % of the diagonal, share of the diagonal
-constexpr double kNoiseTurn = 18;  // [degree] what such a bite still turns the long arms
 
 struct State {
   int sample = 0;
@@ -143,85 +141,6 @@ std::vector<Vec2> refitted(const std::vector<Vec2>& targets, const std::vector<V
   return result;
 }
 
-/// Edges whose course the features do not settle: a plugin shapes the neckline, and a sleeve may bend.
-bool follows_outline(const GarmentTemplate& garment, const TemplateEdge& edge) {
-  if (edge.kind == EdgeKind::neck) return true;
-  const auto joins = [&](int a, int b) { return (edge.from == a && edge.to == b) || (edge.from == b && edge.to == a); };
-  return std::any_of(garment.limbs.begin(), garment.limbs.end(), [&](const TemplateLimb& limb) {
-    return joins(limb.root_a, limb.tip_a) || joins(limb.root_b, limb.tip_b) || joins(limb.root_a, limb.tip_b) ||
-           joins(limb.root_b, limb.tip_a);
-  });
-}
-
-/// Polygon through the features, along the outline where only that can tell the course.
-std::vector<cv::Point> explained(const Outline& outline, const GarmentTemplate& garment,
-                                 const std::vector<int>& sample_of, double scale) {
-  std::vector<cv::Point> polygon;
-  const int n = static_cast<int>(outline.samples.size());
-  const auto add = [&](int s) {
-    const Vec2 p = outline.samples[s].at * scale;
-    polygon.emplace_back(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
-  };
-  for (const TemplateEdge& edge : garment.edges) {
-    add(sample_of[edge.from]);
-    if (!follows_outline(garment, edge)) continue;
-    for (int s = sample_of[edge.from]; s != sample_of[edge.to]; s = (s + 1) % n) add(s);
-  }
-  return polygon;
-}
-
-double overlap(const std::vector<cv::Point>& polygon, const cv::Mat& small_mask) {
-  cv::Mat fill = cv::Mat::zeros(small_mask.size(), CV_8U);
-  cv::fillPoly(fill, std::vector<std::vector<cv::Point>>{polygon}, 255);
-  const int both = cv::countNonZero(fill & small_mask);
-  const int any = cv::countNonZero(fill | small_mask);
-  return any > 0 ? static_cast<double>(both) / any : 0;
-}
-
-/// What remains of the turn at `s` when the outline is seen over a long arc, inside the stretch `before` and `after` it
-/// [samples]: a bite or a burr of the cut-out turns back within the arc, a corner of the garment does not.
-double long_turn(const Outline& outline, int s, int before, int after) {
-  const int n = static_cast<int>(outline.samples.size());
-  const int arm = std::max(4, static_cast<int>(kLongArm * outline.diagonal / outline.step));
-  const auto direction = [&](int sign, int reach) {
-    // From the mean of the near half to the mean of the far half of the arm.
-    const int half = std::max(2, std::min(arm, reach) / 2);
-    Vec2 near = Vec2::Zero(), far = Vec2::Zero();
-    for (int k = 0; k < half; ++k) {
-      near += outline.samples[((s + sign * k) % n + n) % n].at;
-      far += outline.samples[((s + sign * (k + half)) % n + n) % n].at;
-    }
-    return Vec2(sign * (far - near));
-  };
-  const Vec2 in = direction(-1, before), out = direction(1, after);
-  return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) * 180 / std::numbers::pi;
-}
-
-/// Strong corners of the outline that no feature explains speak against the garment.
-double unexplained(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& sample_of) {
-  const int n = static_cast<int>(outline.samples.size());
-  double sum = 0;
-  for (const TemplateEdge& edge : garment.edges) {
-    if (follows_outline(garment, edge)) continue;
-    // A seam is smooth; a hem may have frills and folds.
-    const double gate = edge.kind == EdgeKind::seam ? 25 : 40;
-    const int first = sample_of[edge.from], last = sample_of[edge.to];
-    for (int s = first; s != last; s = (s + 1) % n) {
-      const Sample& sample = outline.samples[s];
-      if (sample.candidate < 0 || std::abs(sample.coarse_deg) < gate) continue;
-      const double turn =
-          std::min(std::abs(sample.coarse_deg), long_turn(outline, s, (s - first + n) % n, (last - s + n) % n));
-      double nearest = kFar;
-      for (const int f : sample_of) nearest = std::min(nearest, (outline.samples[f].at - sample.at).norm());
-      const double gap = nearest / outline.diagonal;
-      if (gap > 0.06)
-        sum += (edge.kind == EdgeKind::seam ? 1.6 : 0.6) * std::min(1.0, std::abs(sample.coarse_deg) / 90) *
-               std::clamp((turn - kNoiseTurn) / (gate - kNoiseTurn), 0.0, 1.0) * std::min(1.0, (gap - 0.06) / 0.06);
-    }
-  }
-  return sum;
-}
-
 /// A feature that need not be a corner (a shoulder over a sleeve) goes where its neighbours in the template say: the
 /// pose's offset from the snapped features around it, the near ones weighing most.
 void place_soft(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& order,
@@ -299,7 +218,6 @@ Match try_pose(const Outline& outline, const cv::Mat& small_mask, double scale, 
   place_soft(outline, garment, order, targets, states, chosen);
   match.features.resize(count);
   std::vector<int> sample_of(count);
-  double certainty = 0, worst = 1;
   for (int i = 0; i < count; ++i) {
     const State& s = states[i][chosen[i]];
     const Sample& sample = outline.samples[s.sample];
@@ -311,32 +229,11 @@ Match try_pose(const Outline& outline, const cv::Mat& small_mask, double scale, 
     placed.snapped = s.snapped && corner > 0;
     placed.confidence = std::exp(-d * d) * (placed.snapped ? 0.5 + 0.5 * corner : 0.35);
     sample_of[order[i]] = s.sample;
-    if (turn != Turn::any) {
-      certainty += placed.confidence;
-      worst = std::min(worst, placed.confidence);
-    }
   }
-  // A corner may be hidden on one side; when it is missing on both, the garment has no such corner.
-  double weakest = 1;
-  for (int f = 0; f < count; ++f) {
-    const int partner = garment.features[f].mirror;
-    if (garment.features[f].turn == Turn::any || partner < 0) continue;
-    weakest = std::min(weakest, std::max(match.features[f].confidence, match.features[partner].confidence));
-  }
-  int turning = 0;
-  for (const TemplateFeature& f : garment.features) turning += f.turn != Turn::any;
-  certainty = turning > 0 ? certainty / turning : 0.7;
-  const double cover = overlap(explained(outline, garment, sample_of, scale), small_mask);
-  const double stray = unexplained(outline, garment, sample_of);
+  match.evidence = weigh(outline, small_mask, scale, garment, sample_of);
+  const double cover = match.evidence.cover, stray = match.evidence.stray;
   match.cost = total / count + 4 * (1 - cover) + 0.25 * stray + 0.15 * std::pow(frame.tilt_deg / 20, 2);
-  const double cover_score = std::clamp((cover - 0.55) / 0.2, 0.0, 1.0);
-  const double stray_score = std::exp(-0.9 * stray);
-  const double corner_score =
-      std::clamp((certainty - 0.6) / 0.15, 0.0, 1.0) * std::clamp((weakest - 0.1) / 0.25, 0.0, 1.0);
-  match.score = cover_score * stray_score * corner_score;
-  match.why = cover_score <= stray_score && cover_score <= corner_score ? "its outline covers other areas"
-              : stray_score <= corner_score ? "its outline has corners that this garment lacks"
-                                            : "its outline lacks this garment's corners";
+  match.score = match.evidence.score;
   return match;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "evidence.hpp"
 #include "outline.hpp"
 #include "vitrine/model/garment_template.hpp"
 
@@ -21,7 +22,7 @@ struct Match {
   double tilt_deg = 0;  ///< start rotation that explained the outline best
   double cost = 1e30;   ///< lower is better; compares poses
   double score = 0;     ///< [-] 0..1
-  std::string why;      ///< the strongest reason against this garment, for the refusal
+  Evidence evidence;    ///< what the score is made of
 };
 
 /// Feature indices in the order in which the outline meets them, walked clockwise.

@@ -13,6 +13,11 @@ constexpr double kDegree = 180.0 / std::numbers::pi;
 constexpr double kSampleShare = 1.0 / 600;  // sample spacing, share of the box diagonal
 constexpr double kCoarseArc = 0.035;        // arc that still sees a rounded corner, share of the box diagonal
 constexpr double kCoarseGate = 1.25;        // a gentle bow turns more over the coarse arc, so that its gate is higher
+// Half of a clean outline turns less than this over the fine arc, whatever the garment; where it turns more, the
+// cut-out is rough and is seen over longer arcs, so that corners stand out from the noise again.
+constexpr double kRoughTurn = 8;     // [degree]
+constexpr double kMaxSmoothing = 3;  // times the arc asked for
+constexpr double kSmoothingStep = 1.3;
 
 double turn_at(const std::vector<Sample>& samples, int i, int arm) {
   const int n = static_cast<int>(samples.size());
@@ -63,12 +68,26 @@ void sample_chain(Outline& outline, double sigma) {
   }
 }
 
+int fine_arm(const Outline& outline, double fine_arc) {
+  const int limit = std::max(1, static_cast<int>(outline.samples.size()) / 8);
+  return std::clamp(static_cast<int>(std::lround(fine_arc / outline.step)), 2, std::max(2, limit));
+}
+
+/// Median turn over the fine arc [degree].
+double roughness(const Outline& outline, int arm) {
+  std::vector<double> turns(outline.samples.size());
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    turns[i] = std::abs(turn_at(outline.samples, static_cast<int>(i), arm));
+  std::nth_element(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2), turns.end());
+  return turns[turns.size() / 2];
+}
+
 void find_candidates(Outline& outline, double fine_arc, double min_turn_deg) {
   const int n = static_cast<int>(outline.samples.size());
   const int limit = std::max(1, n / 8);
-  const int fine = std::clamp(static_cast<int>(std::lround(fine_arc / outline.step)), 2, limit);
-  const int coarse =
-      std::clamp(static_cast<int>(std::lround(outline.diagonal * kCoarseArc / outline.step)), fine, limit);
+  const int fine = fine_arm(outline, fine_arc);
+  const int coarse = std::clamp(static_cast<int>(std::lround(outline.diagonal * kCoarseArc / outline.step)), fine,
+                                std::max(fine, limit));
   std::vector<double> fine_turn(n), coarse_turn(n);
   for (int i = 0; i < n; ++i) {
     fine_turn[i] = turn_at(outline.samples, i, fine);
@@ -191,8 +210,15 @@ Outline trace_outline(const cv::Mat& mask, const FeatureOptions& options) {
   if (signed_area(outline.chain) < 0) std::reverse(outline.chain.begin(), outline.chain.end());
   outline.box = cv::boundingRect(*longest);
   outline.diagonal = std::hypot(outline.box.width, outline.box.height);
-  const double sigma = std::max(1.5, options.smoothing * outline.diagonal);
+  const double asked = std::max(1.5, options.smoothing * outline.diagonal);
+  double sigma = asked;
   sample_chain(outline, sigma);
+  while (roughness(outline, fine_arm(outline, 3 * sigma)) > kRoughTurn &&
+         kSmoothingStep * sigma <= kMaxSmoothing * asked) {
+    sigma *= kSmoothingStep;
+    outline.samples.clear();
+    sample_chain(outline, sigma);
+  }
   find_candidates(outline, 3 * sigma, options.min_turn_deg);
   return outline;
 }

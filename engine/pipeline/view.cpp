@@ -36,6 +36,7 @@ std::optional<Error> name_points(const ViewRequest& request, View& view) {
   FeatureOptions options;
   options.side = request.side;
   options.neckline = request.neckline;
+  options.others = request.others;
   return close_room(
       "features", request, view,
       keep(find_features(view.photo, view.silhouette, request.garment, request.necklines, options), view.features));

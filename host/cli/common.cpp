@@ -154,6 +154,7 @@ std::optional<Error> choose_garment(const PluginRegistry& registry, const std::s
   choice.garment = *found;
   choice.neckline = neckline;
   choice.necklines = registry.necklines();
+  choice.others.assign(registry.garments().begin(), registry.garments().end());
   return std::nullopt;
 }
 

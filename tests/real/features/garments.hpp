@@ -56,6 +56,12 @@ inline GarmentTemplate garment_of(const vitrine_garment& table) {
                              feature_named(garment, l.tip_a),
                              feature_named(garment, l.tip_b),
                              {}});
+    for (std::uint32_t k = 0; k < l.chain.count; ++k) garment.limbs.back().chain.push_back(l.chain.data[k].name);
+  }
+  if (table.scale.count > 0) {
+    const vitrine_scale_rule& r = table.scale.data[0];
+    garment.scale = {feature_named(garment, r.feature_a), feature_named(garment, r.feature_b), r.girth, r.ease,
+                     feature_named(garment, r.top),       feature_named(garment, r.bottom)};
   }
   return garment;
 }

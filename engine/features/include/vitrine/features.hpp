@@ -16,6 +16,9 @@ struct FeatureOptions {
   std::string neckline = "auto";  ///< id of a neckline, or "auto": chosen by the ratio rule
   double smoothing = 0.004;       ///< [-] arc over which the chain code is smoothed, share of the box diagonal
   double min_turn_deg = 22;       ///< [degree] turn within that arc that makes a run of candidates
+  /// The loaded garments, to compare with: when another one fits clearly better, the photo is refused and that garment
+  /// is named. May hold the garment that is asked for; may be empty.
+  std::span<const GarmentTemplate> others = {};
 };
 
 /// A silhouette point of high curvature: the best of its run (paper III.A).
@@ -55,6 +58,18 @@ struct Features {
   Image labels;         ///< three-label image after the inside was found, size of the photo
   std::vector<std::string> warnings;
 };
+
+/// How well a garment's template explains a silhouette.
+struct GarmentFit {
+  std::string id;
+  double score = 0;  ///< [-] 0..1; find_features refuses what is below 0.3
+};
+
+/// All garments, the best first, for a label image as find_silhouette makes it. Scores are made of angles and shares of
+/// the garment's own size only: corners where the template asks for them and no others, edges that are plain curves,
+/// covered area, lengths that suit a body. A malformed picture scores 0.
+std::vector<GarmentFit> suggest_garment(const Image& labels, std::span<const GarmentTemplate> garments,
+                                        const FeatureOptions& options = {});
 
 /// Chain code of the eroded silhouette's 4-connected boundary, one candidate per run of high curvature, template scaled
 /// to the silhouette box and matched within its search radius, neckline by the background ratio in the neck area.

@@ -33,6 +33,8 @@ struct GarmentChoice {
   GarmentTemplate garment;
   std::vector<NecklineTemplate> necklines;
   std::string neckline = "auto";
+  /// Loaded garments: a photo that one of them fits clearly better is refused, and that one is named.
+  std::vector<GarmentTemplate> others;
 };
 
 /// One photo to be looked at.

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "sleeves.hpp"
+
+namespace vitrine::features_detail {
+namespace {
+
+constexpr double kHairShare = 0.002;    // threads thinner than twice this share of the diagonal are no outline
+constexpr double kLongestNotch = 0.08;  // of a hanger's clip, share of the diagonal
+constexpr double kWaist = 0.25;         // clips bite from above, share of the height
+
+/// Clips of a hanger bite notches into a waistband; a garment without sleeves and neckline has no narrow notch of its
+/// own. A long gap is none: legs or straps end there, and show that this is another garment.
+void close_notches(cv::Mat& mask) {
+  const cv::Rect box = cv::boundingRect(mask);
+  const double diagonal = std::hypot(box.width, box.height);
+  const int reach = std::max(1, static_cast<int>(0.028 * diagonal));
+  cv::Mat padded;
+  cv::copyMakeBorder(mask, padded, reach, reach, reach, reach, cv::BORDER_CONSTANT, 0);
+  cv::morphologyEx(padded, padded, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
+  const cv::Mat closed = padded(cv::Rect(reach, reach, mask.cols, mask.rows)) & ~mask;
+  cv::Mat pieces, stats, centres;
+  const int count = cv::connectedComponentsWithStats(closed, pieces, stats, centres, 8);
+  for (int i = 1; i < count; ++i) {
+    const double extent = std::max(stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    const bool at_waist = centres.at<double>(i, 1) < box.y + kWaist * box.height;
+    if (at_waist && extent < kLongestNotch * diagonal) mask.setTo(255, pieces == i);
+  }
+}
+
+/// Sleeves without any gap to the body: where a limb's armpit was not found as a corner, the template's place is tried.
+/// True when the outline has the notch of a cuff on the body, so that this is what is wrong with it.
+bool free_hidden_sleeves(const GarmentTemplate& garment, const FeatureOptions& options, cv::Mat& mask, Outline& outline,
+                         Match& match, std::vector<std::string>& warnings) {
+  std::vector<std::pair<int, int>> closed;  // armpit feature, side
+  for (const TemplateLimb& limb : garment.limbs)
+    for (const int f : {limb.root_a, limb.root_b})
+      if (f >= 0 && f < static_cast<int>(garment.features.size()) && garment.features[f].turn == Turn::concave &&
+          (match.features.empty() || !match.features[f].snapped))
+        closed.emplace_back(f, garment.poses[0].uv[f].x() < 0.5 ? -1 : 1);
+  if (closed.empty()) return false;
+  bool notched = false;
+  cv::Mat best_mask;
+  Outline best_outline;
+  for (const TemplatePose& pose : garment.poses) {
+    cv::Mat tried = mask.clone();
+    bool cut = false;
+    for (const auto& [f, side] : closed) {
+      const Vec2 armpit(outline.box.x + pose.uv[f].x() * outline.box.width,
+                        outline.box.y + pose.uv[f].y() * outline.box.height);
+      cut = cut_hidden_gap(tried, outline, armpit, side) || cut;
+    }
+    if (!cut) continue;
+    notched = true;
+    Outline freed = trace_outline(tried, options);
+    Match again = match_template(freed, tried, garment);
+    if (again.score <= std::max(match.score, kMinScore)) continue;
+    match = std::move(again);
+    best_mask = tried;
+    best_outline = std::move(freed);
+  }
+  if (best_mask.empty()) return notched;
+  mask = best_mask;
+  outline = std::move(best_outline);
+  warnings.push_back("SLEEVE_ON_BODY");
+  return notched;
+}
+
+}  // namespace
+
+cv::Mat whole_piece(const cv::Mat& mask) {
+  const double size = std::hypot(mask.cols, mask.rows);
+  return clean_mask(mask, std::max(1, static_cast<int>(kHairShare * size / 2)));
+}
+
+Fit fit_garment(const cv::Mat& piece, const GarmentTemplate& garment, const FeatureOptions& options) {
+  Fit fit;
+  if (cv::countNonZero(piece) < 400) return fit;
+  const SleeveCuts cuts = open_sleeve_gaps(piece, garment, options);
+  fit.mask = cuts.mask;
+  if (garment.limbs.empty() && garment.neck_edge() < 0) close_notches(fit.mask);
+  fit.outline = trace_outline(fit.mask, options);
+  if (fit.outline.chain.empty()) return fit;
+  fit.match = match_template(fit.outline, fit.mask, garment);
+  fit.hidden_sleeve = free_hidden_sleeves(garment, options, fit.mask, fit.outline, fit.match, fit.warnings);
+  if (fit.match.pose < 0 || fit.match.features.empty()) return fit;
+  fit.score = fit.match.score;
+  if (garment.limbs.empty()) fit.score *= std::exp(-120 * cuts.gap_share);
+  return fit;
+}
+
+}  // namespace vitrine::features_detail

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Photos of the generator, whose points are known exactly, with the shipped garment tables.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "garments.hpp"
+#include "photo_maker.hpp"
+#include "spoiled_mask.hpp"
+#include "vitrine/features.hpp"
+
+namespace vitrine {
+namespace {
+
+const std::vector<GarmentTemplate>& loaded() {
+  static const std::vector<GarmentTemplate> all = {
+      test::garment_of(templates::vest), test::garment_of(templates::long_sleeve), test::garment_of(templates::skirt)};
+  return all;
+}
+
+struct Made {
+  support::MadePhoto photo;
+  Image labels;  // the whole garment
+  int garment = 0;
+};
+
+Made make(std::uint32_t seed, int garment) {
+  Made made;
+  made.garment = garment;
+  made.photo = support::make_photo(support::random_spec(seed, static_cast<support::GarmentKind>(garment)));
+  made.labels = made.photo.labels;
+  for (auto& label : made.labels.data)
+    if (label) label = label_outside;
+  return made;
+}
+
+Result<Features> features_of(const Made& made, const Image& labels, int garment) {
+  Photo photo;
+  photo.rgb = made.photo.rgb;
+  Silhouette silhouette;
+  silhouette.labels = labels;
+  FeatureOptions options;
+  options.side = Side::back;  // the outline's own top edge: what is measured here is the outline
+  options.others = loaded();
+  return find_features(photo, silhouette, loaded()[garment], test::necklines(), options);
+}
+
+double share(std::vector<double> values, double q) {
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
+}
+
+TEST(MadePhotos, KeepTheirPointsAndTheirGarmentOnARoughOutline) {
+  std::vector<double> distances;
+  for (int garment = 0; garment < 3; ++garment)
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+      const Made made = make(seed, garment);
+      const Image rough = test::roughened(made.labels, 0.003, 0.004, seed);
+      EXPECT_EQ(suggest_garment(rough, loaded())[0].id, loaded()[garment].id) << seed;
+      const Result<Features> found = features_of(made, rough, garment);
+      ASSERT_TRUE(found) << loaded()[garment].id << " " << seed << ": " << found.error().message;
+      const double diagonal = test::box_of(made.labels).diagonal();
+      for (const FeaturePoint& p : found->points) {
+        const auto truth = made.photo.landmarks.find(p.name);
+        if (truth != made.photo.landmarks.end()) distances.push_back(100 * (p.pixel - truth->second).norm() / diagonal);
+      }
+    }
+  std::printf("%zu points: median %.2f %%, 90th percentile %.2f %% of the diagonal\n", distances.size(),
+              share(distances, 0.5), share(distances, 0.9));
+  EXPECT_LE(share(distances, 0.5), 0.8);
+  EXPECT_LE(share(distances, 0.9), 3);
+}
+
+TEST(MadePhotos, AreRefusedWhenAnotherGarmentIsAskedFor) {
+  for (int garment = 0; garment < 3; ++garment)
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+      const Made made = make(seed, garment);
+      for (int asked = 0; asked < 3; ++asked) {
+        const Result<Features> found = features_of(made, made.labels, asked);
+        EXPECT_EQ(static_cast<bool>(found), asked == garment) << loaded()[garment].id << " " << seed;
+        if (asked == garment || found) continue;
+        EXPECT_EQ(found.error().code, "NOT_THIS_GARMENT");
+        EXPECT_NE(found.error().remedy.find(loaded()[garment].id), std::string::npos) << found.error().remedy;
+      }
+    }
+}
+
+TEST(MadePhotos, KeepTheirGarmentWhenTheirOutlineIsBitten) {
+  int right = 0, accepted = 0;
+  for (int garment = 0; garment < 3; ++garment)
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+      const Made made = make(seed, garment);
+      const Image bitten = test::bitten(made.labels, 0.02, 4, seed);
+      right += suggest_garment(bitten, loaded())[0].id == loaded()[garment].id;
+      accepted += static_cast<bool>(features_of(made, bitten, garment));
+    }
+  EXPECT_GE(right, 29);
+  EXPECT_GE(accepted, 28);
+}
+
+}  // namespace
+}  // namespace vitrine
