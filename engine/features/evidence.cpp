@@ -100,7 +100,7 @@ double unexplained(const Outline& outline, const GarmentTemplate& garment, const
       for (const int f : sample_of) nearest = std::min(nearest, (outline.samples[f].at - sample.at).norm());
       const double gap = nearest / outline.diagonal;
       if (gap > 0.06)
-        sum += (edge.kind == EdgeKind::seam ? 1.6 : 1.2) * std::min(1.0, std::abs(sample.coarse_deg) / 90) *
+        sum += (edge.kind == EdgeKind::seam ? 1.6 : 0.6) * std::min(1.0, std::abs(sample.coarse_deg) / 90) *
                std::clamp((turn - kNoiseTurn) / (gate - kNoiseTurn), 0.0, 1.0) * std::min(1.0, (gap - 0.06) / 0.06);
     }
   }

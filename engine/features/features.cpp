@@ -16,8 +16,10 @@ namespace {
 
 using namespace features_detail;
 
-constexpr double kSure = 0.9;      // score of a fit that needs no comparison with other garments
-constexpr double kClearly = 1.12;  // times the score asked for: another garment fits clearly better
+constexpr double kSure = 0.9;         // score of a fit that needs no comparison with other garments
+constexpr double kTurnSide = 400;     // [px] picture in which a garment's upright position is looked for
+constexpr double kTurnMargin = 0.05;  // merit by which a turned position must be better
+constexpr double kClearly = 1.12;     // times the score asked for: another garment fits clearly better
 
 /// Whether the tables agree with each other.
 bool usable(const GarmentTemplate& garment) {
@@ -33,6 +35,11 @@ bool usable(const GarmentTemplate& garment) {
            garment.edges[i].to == garment.edges[(i + 1) % count].from;
   for (std::size_t i = 0; good && i < count; ++i) good = garment.features[i].mirror < static_cast<int>(count);
   return good;
+}
+
+bool is_label_image(const Image& labels) {
+  return labels.channels == 1 && labels.width >= 8 && labels.height >= 8 && labels.width <= 20000 &&
+         labels.height <= 20000 && labels.data.size() == static_cast<std::size_t>(labels.width) * labels.height;
 }
 
 std::string two_digits(double value) {
@@ -322,13 +329,39 @@ Result<Features> find_features(const Photo& photo, const Silhouette& silhouette,
   }
 }
 
+int turns_to_upright(const Image& labels, const GarmentTemplate& garment, const FeatureOptions& options) {
+  if (!is_label_image(labels) || !usable(garment)) return 0;
+  try {
+    const cv::Mat view(labels.height, labels.width, CV_8U, const_cast<std::uint8_t*>(labels.data.data()));
+    cv::Mat mask = view == label_outside;
+    // The question is a coarse one.
+    const double scale = std::min(1.0, kTurnSide / std::max(mask.cols, mask.rows));
+    cv::resize(mask, mask, {}, scale, scale, cv::INTER_AREA);
+    mask = whole_piece(mask > 127);
+    int best = 0;
+    double best_merit = 0;
+    for (int turns = 0; turns < 4; ++turns) {
+      const Fit fit = fit_garment(mask, garment, options);
+      // The score says whether the corners are there, the cost whether they are where this garment has them: the waist
+      // of a skirt is narrower than its hem.
+      const double merit = fit.score - fit.match.cost;
+      if (turns == 0 || (fit.score >= kMinScore && merit > best_merit)) {
+        best = turns;
+        best_merit = merit + (turns == 0 ? kTurnMargin : 0);
+      }
+      cv::rotate(mask, mask, cv::ROTATE_90_COUNTERCLOCKWISE);
+    }
+    return best;
+  } catch (const std::exception&) {
+    return 0;  // find_features meets the same shape, and says what is wrong with it
+  }
+}
+
 std::vector<GarmentFit> suggest_garment(const Image& labels, std::span<const GarmentTemplate> garments,
                                         const FeatureOptions& options) {
   std::vector<GarmentFit> ranking;
   for (const GarmentTemplate& garment : garments) ranking.push_back({garment.id, 0});
-  if (labels.channels != 1 || labels.width < 8 || labels.height < 8 || labels.width > 20000 || labels.height > 20000 ||
-      labels.data.size() != static_cast<std::size_t>(labels.width) * labels.height)
-    return ranking;
+  if (!is_label_image(labels)) return ranking;
   try {
     const cv::Mat view(labels.height, labels.width, CV_8U, const_cast<std::uint8_t*>(labels.data.data()));
     const cv::Mat mask = whole_piece(view == label_outside);

@@ -15,6 +15,9 @@ constexpr double kReward = 0.9;     // what such a corner is worth, in squared s
 constexpr double kWrongTurn = 0.6;  // penalty for a corner that turns the other way
 constexpr double kShape = 0.35;     // weight of the distance between neighbouring features
 constexpr double kFar = 1e18;
+constexpr int kFineStride = 5;     // [samples] between plain states
+constexpr int kCoarseStride = 14;  // the same for the first impression
+constexpr int kSecondLooks = 6;    // frames looked at closely besides the best one of each pose
 
 struct State {
   int sample = 0;
@@ -35,7 +38,7 @@ double corner_reward(const Sample& sample, Turn turn) {
 
 /// What one feature may choose from: candidates in its search radius, and plain outline samples for the case that the
 /// corner is rounded away.
-std::vector<State> states_of(const Outline& outline, const Vec2& target, double radius, Turn turn) {
+std::vector<State> states_of(const Outline& outline, const Vec2& target, double radius, Turn turn, int stride) {
   std::vector<State> states;
   int nearest = 0;
   double nearest_distance = kFar;
@@ -48,7 +51,7 @@ std::vector<State> states_of(const Outline& outline, const Vec2& target, double 
       nearest = s;
     }
     const bool candidate = sample.candidate >= 0;
-    if (distance > radius || (!candidate && s % 5 != 0)) continue;
+    if (distance > radius || (!candidate && s % stride != 0)) continue;
     const double d = distance / radius;
     states.push_back({s, d * d - corner_reward(sample, turn), candidate});
   }
@@ -182,18 +185,39 @@ struct Frame {
   Vec2 low, high;  // bounding box in the turned frame
 };
 
+/// Where a pose puts its features in a frame, in the outline's order.
+void aim(const GarmentTemplate& garment, const std::vector<int>& order, int pose_index, const Frame& frame,
+         std::vector<Vec2>& targets, std::vector<double>& radius) {
+  const TemplatePose& pose = garment.poses[pose_index];
+  const Vec2 size = frame.high - frame.low;
+  targets.clear();
+  radius.clear();
+  for (const int f : order) {
+    targets.push_back(rotated(frame.low + pose.uv[f].cwiseProduct(size), frame.tilt_deg));
+    radius.push_back(pose.radius[f] * size.norm());
+  }
+}
+
+/// First impression of a pose in a frame: few states, one round.
+double coarse_cost(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& order,
+                   int pose_index, const Frame& frame) {
+  std::vector<Vec2> targets;
+  std::vector<double> radius;
+  aim(garment, order, pose_index, frame, targets, radius);
+  std::vector<std::vector<State>> states;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    states.push_back(states_of(outline, targets[i], radius[i], garment.features[order[i]].turn, kCoarseStride));
+  std::vector<int> chosen;
+  return choose(outline, states, targets, radius, chosen) / static_cast<double>(order.size()) +
+         0.15 * std::pow(frame.tilt_deg / 20, 2);
+}
+
 Match try_pose(const Outline& outline, const cv::Mat& small_mask, double scale, const GarmentTemplate& garment,
                const std::vector<int>& order, int pose_index, const Frame& frame) {
-  const TemplatePose& pose = garment.poses[pose_index];
   const int count = static_cast<int>(order.size());
-  const Vec2 size = frame.high - frame.low;
-  std::vector<Vec2> targets(count);
-  std::vector<double> radius(count);
-  for (int i = 0; i < count; ++i) {
-    const Vec2& uv = pose.uv[order[i]];
-    targets[i] = rotated(frame.low + Vec2(uv.x() * size.x(), uv.y() * size.y()), frame.tilt_deg);
-    radius[i] = pose.radius[order[i]] * size.norm();
-  }
+  std::vector<Vec2> targets;
+  std::vector<double> radius;
+  aim(garment, order, pose_index, frame, targets, radius);
   Match match;
   match.pose = pose_index;
   match.tilt_deg = frame.tilt_deg;
@@ -202,7 +226,7 @@ Match try_pose(const Outline& outline, const cv::Mat& small_mask, double scale, 
   double total = kFar;
   for (int round = 0; round < 2; ++round) {
     for (int i = 0; i < count; ++i)
-      states[i] = states_of(outline, targets[i], radius[i], garment.features[order[i]].turn);
+      states[i] = states_of(outline, targets[i], radius[i], garment.features[order[i]].turn, kFineStride);
     total = choose(outline, states, targets, radius, chosen);
     if (total >= kFar / 2) return match;
     if (round == 1) break;
@@ -251,7 +275,12 @@ Match match_template(const Outline& outline, const cv::Mat& mask, const GarmentT
   cv::Mat small_mask;
   cv::resize(mask, small_mask, {}, scale, scale, cv::INTER_AREA);
   small_mask = small_mask > 127;
-  Match best;
+  struct Look {
+    double cost;
+    int pose;
+    Frame frame;
+  };
+  std::vector<Look> looks;
   for (const double tilt : {0.0, -7.0, 7.0, -14.0, 14.0, -20.0, 20.0}) {
     Frame frame{tilt, Vec2::Constant(kFar), Vec2::Constant(-kFar)};
     for (const Sample& s : outline.samples) {
@@ -259,10 +288,18 @@ Match match_template(const Outline& outline, const cv::Mat& mask, const GarmentT
       frame.low = frame.low.cwiseMin(p);
       frame.high = frame.high.cwiseMax(p);
     }
-    for (int pose = 0; pose < static_cast<int>(garment.poses.size()); ++pose) {
-      Match match = try_pose(outline, small_mask, scale, garment, order, pose, frame);
-      if (match.cost < best.cost) best = std::move(match);
-    }
+    for (int pose = 0; pose < static_cast<int>(garment.poses.size()); ++pose)
+      looks.push_back({coarse_cost(outline, garment, order, pose, frame), pose, frame});
+  }
+  std::stable_sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.cost < b.cost; });
+  Match best;
+  std::vector<char> seen(garment.poses.size(), 0);
+  int more = kSecondLooks;
+  for (const Look& look : looks) {
+    if (seen[look.pose] && more-- <= 0) continue;
+    seen[look.pose] = 1;
+    Match match = try_pose(outline, small_mask, scale, garment, order, look.pose, look.frame);
+    if (match.cost < best.cost) best = std::move(match);
   }
   return best;
 }

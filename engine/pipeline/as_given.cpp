@@ -59,19 +59,24 @@ std::optional<NamedPoint> opening_low(const GarmentTemplate& garment, const Feat
 }  // namespace
 
 Vec2 pixel_as_given(const Photo& photo, Vec2 p) {
-  if (photo.mirrored) p.x() = photo.rgb.width - 1 - p.x();
+  // The rooms' picture was mirrored first and then turned: back in the other order.
+  int width = photo.rgb.width, height = photo.rgb.height;
+  for (int k = 0; k < photo.quarter_turns; ++k) {
+    p = Vec2(height - 1 - p.y(), p.x());
+    std::swap(width, height);
+  }
+  if (photo.mirrored) p.x() = width - 1 - p.x();
   // Centres of pixels stand at whole numbers; a reduced picture's borders, not its centres, are those of the source.
-  const Vec2 scale(static_cast<double>(photo.source_width) / photo.rgb.width,
-                   static_cast<double>(photo.source_height) / photo.rgb.height);
+  const Vec2 scale(static_cast<double>(photo.source_width) / width, static_cast<double>(photo.source_height) / height);
   return (p + Vec2(0.5, 0.5)).cwiseProduct(scale) - Vec2(0.5, 0.5);
 }
 
 Image as_given(const Photo& photo, const Image& image) {
-  Image turned = image;
-  if (!photo.mirrored) return turned;
-  cv::Mat m(turned.height, turned.width, CV_8UC(turned.channels), turned.data.data());
+  Image given = turned(image, 4 - photo.quarter_turns);
+  if (!photo.mirrored) return given;
+  cv::Mat m(given.height, given.width, CV_8UC(given.channels), given.data.data());
   cv::flip(m, m, 1);
-  return turned;
+  return given;
 }
 
 Image resize_labels(const Image& labels, int width, int height) {

@@ -37,6 +37,11 @@ std::optional<Error> name_points(const ViewRequest& request, View& view) {
   options.side = request.side;
   options.neckline = request.neckline;
   options.others = request.others;
+  // Every garment's template stands upright; so does what the rooms from here on see.
+  if (const int turns = turns_to_upright(view.silhouette.labels, request.garment, options); turns != 0) {
+    turn_photo(view.photo, turns);
+    view.silhouette.labels = turned(view.silhouette.labels, turns);
+  }
   return close_room(
       "features", request, view,
       keep(find_features(view.photo, view.silhouette, request.garment, request.necklines, options), view.features));

@@ -71,6 +71,7 @@ std::string view_json(const ViewRequest& request, const View& view) {
   if (!view.features.points.empty()) {
     j["pose"] = view.features.pose;
     j["tilt_deg"] = tilt_as_given(view);
+    j["quarter_turns"] = view.photo.quarter_turns;
     j["template_score"] = view.features.score;
     if (!view.features.neckline.id.empty()) j["neckline"] = neckline_json(view.features.neckline);
   }

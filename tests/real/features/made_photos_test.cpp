@@ -99,5 +99,39 @@ TEST(MadePhotos, KeepTheirGarmentWhenTheirOutlineIsBitten) {
   EXPECT_GE(accepted, 28);
 }
 
+TEST(MadePhotos, AreTurnedUprightWhicheverWayTheyLie) {
+  for (int garment = 0; garment < 3; ++garment)
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+      const Made made = make(seed, garment);
+      const Result<Features> upright = features_of(made, made.labels, garment);
+      ASSERT_TRUE(upright) << upright.error().message;
+      for (int lies = 0; lies < 4; ++lies) {
+        const Image given = turned(made.labels, lies);
+        const int turns = turns_to_upright(given, loaded()[garment]);
+        ASSERT_EQ(turns, (4 - lies) % 4) << loaded()[garment].id << " " << seed << " turned " << lies << " times";
+        const Result<Features> found = features_of(made, turned(given, turns), garment);
+        ASSERT_TRUE(found) << found.error().message;
+        for (std::size_t i = 0; i < found->points.size(); ++i)
+          EXPECT_EQ(found->points[i].pixel, upright->points[i].pixel) << found->points[i].name;
+      }
+    }
+}
+
+TEST(MadePhotos, LyingOnTheirSideAreTheSamePictureAfterFourTurns) {
+  Photo photo;
+  photo.rgb = make(1, 0).photo.rgb;
+  photo.mask = make(1, 0).labels;
+  Photo lying = photo;
+  turn_photo(lying, 1);
+  EXPECT_EQ(lying.quarter_turns, 1);
+  EXPECT_EQ(lying.rgb.width, photo.rgb.height);
+  // Counter-clockwise: what was the right end of the top row is the top of the left column.
+  EXPECT_EQ(*lying.rgb.at(0, 0), *photo.rgb.at(photo.rgb.width - 1, 0));
+  turn_photo(lying, 3);
+  EXPECT_EQ(lying.quarter_turns, 0);
+  EXPECT_EQ(lying.rgb.data, photo.rgb.data);
+  EXPECT_EQ(lying.mask.data, photo.mask.data);
+}
+
 }  // namespace
 }  // namespace vitrine

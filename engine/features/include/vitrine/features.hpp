@@ -71,6 +71,10 @@ struct GarmentFit {
 std::vector<GarmentFit> suggest_garment(const Image& labels, std::span<const GarmentTemplate> garments,
                                         const FeatureOptions& options = {});
 
+/// Counter-clockwise quarter turns (0 to 3) that bring the garment upright: 0 unless the template fits the turned
+/// silhouette clearly better. For a label image as find_silhouette makes it.
+int turns_to_upright(const Image& labels, const GarmentTemplate& garment, const FeatureOptions& options = {});
+
 /// Chain code of the eroded silhouette's 4-connected boundary, one candidate per run of high curvature, template scaled
 /// to the silhouette box and matched within its search radius, neckline by the background ratio in the neck area.
 /// Warnings: NECKLINE_UNCLEAR (no front neckline seen below the back's; the top edge is used), SLEEVE_ON_BODY (cut

@@ -25,7 +25,15 @@ struct Photo {
   int source_width = 0, source_height = 0;  ///< [px] as displayed (after EXIF), before any reduction
   double scale = 1;                         ///< this picture's pixels per source pixel
   bool mirrored = false;
+  int quarter_turns = 0;  ///< counter-clockwise quarter turns applied after mirroring, 0 to 3: rgb, alpha and mask
+                          ///< stand upright, source_width and source_height do not
 };
+
+/// The picture turned counter-clockwise by `quarter_turns` times 90 degrees.
+Image turned(const Image& image, int quarter_turns);
+
+/// Turns the photo's pictures, on top of the turns that it already has.
+void turn_photo(Photo& photo, int quarter_turns);
 
 /// Reads JPEG, PNG, WebP, TIFF, BMP. The file's header is checked against the limits before pixels are decoded.
 /// Errors: missing (66), unusable (65: NOT_AN_IMAGE, TRUNCATED, TOO_LARGE, TOO_SMALL, MASK_SIZE, EMPTY_MASK).
