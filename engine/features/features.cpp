@@ -342,6 +342,8 @@ int turns_to_upright(const Image& labels, const GarmentTemplate& garment, const 
     double best_merit = 0;
     for (int turns = 0; turns < 4; ++turns) {
       const Fit fit = fit_garment(mask, garment, options);
+      // A neckline is at the top, whatever else is alike; a skirt fits its template upside down too.
+      if (turns == 0 && garment.neck_edge() >= 0 && fit.score >= kSure) return 0;
       // The score says whether the corners are there, the cost whether they are where this garment has them: the waist
       // of a skirt is narrower than its hem.
       const double merit = fit.score - fit.match.cost;

@@ -275,6 +275,15 @@ double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, Vec2
   low = neck_edge.front();
   for (const Vec2& p : neck_edge)
     if (frame(p).y() > frame(low).y()) low = p;
+  // Of a flat bottom the middle is meant.
+  const double flat = frame(low).y() - 0.01 * (neck_edge.back() - neck_edge.front()).norm();
+  double first = 1e30, last = -1e30;
+  for (const Vec2& p : neck_edge)
+    if (frame(p).y() >= flat) first = std::min(first, frame(p).x()), last = std::max(last, frame(p).x());
+  for (const Vec2& p : neck_edge)
+    if (frame(p).y() >= flat &&
+        std::abs(frame(p).x() - (first + last) / 2) < std::abs(frame(low).x() - (first + last) / 2))
+      low = p;
   const double left = std::min(from.x(), to.x()), right = std::max(from.x(), to.x());
   const double top = std::min(from.y(), to.y()), bottom = frame(low).y();
   long foreground = 0, background = 0;
@@ -296,27 +305,33 @@ double tip_sharpness(const std::vector<Vec2>& edge) {
   const Vec2 x = along / width, y(-x.y(), x.x());
   std::vector<Vec2> line;
   double depth = 0;
-  std::size_t tip = 0;
   for (const Vec2& p : edge) {
     line.emplace_back((p - edge.front()).dot(x) / width, (p - edge.front()).dot(y) / width);
-    if (line.back().y() > depth) {
-      depth = line.back().y();
-      tip = line.size() - 1;
-    }
+    depth = std::max(depth, line.back().y());
   }
-  if (depth <= 0 || tip == 0 || tip + 1 == line.size()) return 0;
-  // How much of the rise to both sides happens close to the tip, in units of a straight rise (a V).
-  constexpr double kReach = 0.15;
+  if (depth <= 0) return 0;
+  // The tip of a flat bottom is its middle.
+  double first = 1, last = 0;
+  for (const Vec2& p : line)
+    if (p.y() > 0.97 * depth) {
+      first = std::min(first, p.x());
+      last = std::max(last, p.x());
+    }
+  const double tip = (first + last) / 2;
+  if (tip <= 0.05 || tip >= 0.95) return 0;
+  // How much of the rise to both sides happens near the tip, in units of a straight rise (a V). At this reach half an
+  // ellipse has risen a third of it, while a square neck with round corners is still flat.
+  constexpr double kReach = 0.3;
   const auto rise = [&](int step) {
-    std::size_t i = tip;
-    while (i > 0 && i + 1 < line.size() && (line[i].x() - line[tip].x()) * step < kReach) i += step;
-    const Vec2 &out = line[i], &in = line[i - step];
-    const double across = (out.x() - in.x()) * step;
-    const double t = across > 0 ? std::clamp((kReach - (in.x() - line[tip].x()) * step) / across, 0.0, 1.0) : 1.0;
-    const Vec2 at = in + t * (out - in);
-    const double run = std::abs(at.x() - line[tip].x());
-    const double whole = step < 0 ? line[tip].x() : 1 - line[tip].x();
-    return run > 0 && whole > 0 ? (depth - at.y()) / run / (depth / whole) : 0.0;
+    const double whole = step < 0 ? tip : 1 - tip, reach = std::min(kReach, 0.7 * whole);
+    double nearest = 1e30, height = 0;
+    for (const Vec2& p : line) {
+      const double off = std::abs(p.x() - (tip + step * reach));
+      if (off >= nearest) continue;
+      nearest = off;
+      height = depth - p.y();
+    }
+    return height / reach / (depth / whole);
   };
   return 0.5 * (rise(-1) + rise(1));
 }
