@@ -37,7 +37,9 @@ struct Row {
   std::string name, garment, ground, method, code;
   double iou = 0, face_iou = 0, contour = 0;  ///< [-]
   std::vector<double> distances;              ///< [-] feature points, share of the garment's diagonal
-  int neckline_right = -1, class_right = -1;  ///< -1 = not asked
+  std::string neckline, neckline_wanted;      ///< empty = not asked
+  double neck_ratio = 0;
+  int neckline_right = -1;  ///< -1 = not asked
   double silhouette_ms = 0, features_ms = 0, grabcut_ms = 0, megapixel = 0, grabcut_iou = 0;
 };
 
@@ -190,7 +192,10 @@ void draw(const std::string& file, const cv::Mat& rgb, const cv::Mat& found, con
 }
 
 Row measure(const Case& c, const PluginRegistry& registry, const Asked& asked) {
-  Row row{c.name, c.garment, c.ground, "", "", 0, 0, 0, {}, -1, -1};
+  Row row;
+  row.name = c.name;
+  row.garment = c.garment;
+  row.ground = c.ground;
   const cv::Mat rgb = view(c.photo.rgb), truth = view(c.truth) > 0;
   row.megapixel = 1e-6 * static_cast<double>(rgb.total());
   Result<Silhouette> seen = Error{};
@@ -237,7 +242,12 @@ Row measure(const Case& c, const PluginRegistry& registry, const Asked& asked) {
   }
   if (c.points.contains("neck_low") && !features->neckline.id.empty())
     row.distances.push_back((features->neckline.low - c.points.at("neck_low")).norm() / diagonal);
-  if (!c.neckline.empty() && !c.back) row.neckline_right = features->neckline.id == c.neckline;
+  if (!c.neckline.empty() && !c.back) {
+    row.neckline_wanted = c.neckline;
+    row.neckline = features->neckline.id;
+    row.neck_ratio = features->neckline.ratio;
+    row.neckline_right = row.neckline == c.neckline;
+  }
   return row;
 }
 
@@ -291,14 +301,15 @@ void print_group(const char* title, const std::vector<Row>& rows, const std::fun
 void write_csv(const std::string& file, const std::vector<Row>& rows) {
   std::ofstream out(file + ".part");
   out << "photo,garment,ground,method,codes,iou,face_iou,contour_share,points,point_median_percent,point_worst_percent,"
-         "neckline_right,megapixel,silhouette_cpu_ms,features_cpu_ms,grabcut_cpu_ms,grabcut_iou\n";
+         "neckline_wanted,neckline,neck_ratio,megapixel,silhouette_cpu_ms,features_cpu_ms,grabcut_cpu_ms,grabcut_iou\n";
   for (const Row& r : rows) {
     char line[512];
-    std::snprintf(line, sizeof line, "%s,%s,%s,%s,%s,%.4f,%.4f,%.4f,%zu,%.3f,%.3f,%d,%.3f,%.1f,%.1f,%.1f,%.4f\n",
-                  r.name.c_str(), r.garment.c_str(), r.ground.c_str(), r.method.c_str(), r.code.c_str(), r.iou,
-                  r.face_iou, r.contour, r.distances.size(), 100 * quantile(r.distances, 0.5),
-                  100 * quantile(r.distances, 1), r.neckline_right, r.megapixel, r.silhouette_ms, r.features_ms,
-                  r.grabcut_ms, r.grabcut_iou);
+    std::snprintf(line, sizeof line,
+                  "%s,%s,%s,%s,%s,%.4f,%.4f,%.4f,%zu,%.3f,%.3f,%s,%s,%.3f,%.3f,%.1f,%.1f,%.1f,%.4f\n", r.name.c_str(),
+                  r.garment.c_str(), r.ground.c_str(), r.method.c_str(), r.code.c_str(), r.iou, r.face_iou, r.contour,
+                  r.distances.size(), 100 * quantile(r.distances, 0.5), 100 * quantile(r.distances, 1),
+                  r.neckline_wanted.c_str(), r.neckline.c_str(), r.neck_ratio, r.megapixel, r.silhouette_ms,
+                  r.features_ms, r.grabcut_ms, r.grabcut_iou);
     out << line;
   }
   out.close();

@@ -17,7 +17,7 @@ using Vec5d = Eigen::Matrix<double, 5, 1>;
 
 constexpr int ground_parts = 10;
 constexpr int cloth_parts = 6;
-constexpr std::size_t max_samples = 1600;
+constexpr std::size_t max_samples = 2400;
 constexpr int first_rounds = 6, later_rounds = 2;
 constexpr double darkest_shade = 0.58;      ///< cube root of the least light that is left in a cast shadow
 constexpr double shade_penalty = 2.0;       ///< [nat] shade is rarer than lit ground

@@ -2,7 +2,10 @@
 #include "gates.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "picture.hpp"
 
@@ -17,7 +20,9 @@ constexpr double cut_share = 0.25;        ///< part of the garment's width or he
 constexpr double min_sides_differ = 0.7;  ///< share of the contour
 constexpr double min_edge_support = 0.6;  ///< share of the contour
 constexpr double least_difference = 3.0;  ///< [Lab] between the means of both sides of the contour
-constexpr float least_edge = 24;          ///< Sobel magnitude, a step of 6 grey values
+constexpr float least_step = 12;          ///< [Lab] lightness across the contour from which blur can be told
+constexpr double much_blur = 0.0035, max_blur = 0.006;  ///< [-] of the picture's longer side; a sharp photo has 0.002
+constexpr float least_edge = 24;                        ///< Sobel magnitude, a step of 6 grey values
 
 /// The longest stretch of one picture side that the garment covers, as a share of its extent along that side.
 double cut_by_frame(const cv::Mat& mask) {
@@ -29,13 +34,27 @@ double cut_by_frame(const cv::Mat& mask) {
 
 struct Contrast {
   double edge_support = 0, sides_differ = 0;
+  double blur = 0;  ///< [px] median standard deviation of the contour's transition; 0 = cannot be told
 };
+
+/// Standard deviation [px] of the transition at a contour pixel: a step of height h blurred by s is steepest with
+/// h / (s sqrt(2 pi)) a pixel.
+double transition(const cv::Mat& lab, int y, int x, float step) {
+  float steepest = 0;
+  for (int v = std::max(1, y - 2); v <= std::min(lab.rows - 2, y + 2); ++v)
+    for (int u = std::max(1, x - 2); u <= std::min(lab.cols - 2, x + 2); ++u)
+      steepest = std::max(steepest, std::hypot(lab.at<cv::Vec3f>(v, u + 1)[0] - lab.at<cv::Vec3f>(v, u - 1)[0],
+                                               lab.at<cv::Vec3f>(v + 1, u)[0] - lab.at<cv::Vec3f>(v - 1, u)[0]) /
+                                        2);
+  return step / (std::max(steepest, 1e-3f) * std::sqrt(2 * std::numbers::pi));
+}
 
 Contrast contrast_along(const WorkPicture& work, const cv::Mat& mask, const Sides& sides) {
   const cv::Mat contour = contour_of(mask);
   cv::Mat edge;
   cv::dilate(work.edges, edge, cv::Mat());
   double n = 0, supported = 0, differ = 0;
+  std::vector<double> blur;
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x) {
       if (!contour.at<std::uint8_t>(y, x)) continue;
@@ -43,8 +62,15 @@ Contrast contrast_along(const WorkPicture& work, const cv::Mat& mask, const Side
       supported += edge.at<float>(y, x) > least_edge;
       differ +=
           distance2(sides.in.at<cv::Vec3f>(y, x), sides.out.at<cv::Vec3f>(y, x)) > least_difference * least_difference;
+      const float step = std::abs(sides.in.at<cv::Vec3f>(y, x)[0] - sides.out.at<cv::Vec3f>(y, x)[0]);
+      if (step > least_step) blur.push_back(transition(work.lab, y, x, step));
     }
-  return {supported / std::max(n, 1.0), differ / std::max(n, 1.0)};
+  Contrast c{supported / std::max(n, 1.0), differ / std::max(n, 1.0), 0};
+  if (static_cast<double>(blur.size()) < 0.2 * n || blur.empty()) return c;
+  const auto middle = blur.begin() + static_cast<std::ptrdiff_t>(blur.size() / 2);
+  std::nth_element(blur.begin(), middle, blur.end());
+  c.blur = *middle;
+  return c;
 }
 
 }  // namespace
@@ -80,6 +106,11 @@ std::optional<Error> judge(const Photo& photo, const WorkPicture& work, const cv
   if (!drawn && (c.sides_differ < needed || c.edge_support < min_edge_support))
     return refuse(photo, "LOW_CONTRAST", "along much of its outline the garment looks like the ground it lies on.",
                   "Lay it on a board of another colour: a light garment on dark, a dark one on white; or add a mask.");
+  const double blur = c.blur / std::max(mask.cols, mask.rows);
+  if (blur > max_blur)
+    return refuse(photo, "BLURRED", "the photo is out of focus or shaken.",
+                  "Take it again with a steady camera and the focus on the garment.");
+  if (blur > much_blur) out.warnings.push_back("BLURRED");
   if (!drawn && (c.sides_differ < 0.9 || c.edge_support < 0.85)) out.warnings.push_back("LOW_CONTRAST");
   return std::nullopt;
 }

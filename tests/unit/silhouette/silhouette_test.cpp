@@ -224,6 +224,22 @@ TEST(SilhouetteRoom, twoGarmentsAreRefused) {
   EXPECT_EQ(code(find_silhouette(photo_of(s.rgb))), "SEVERAL_GARMENTS");
 }
 
+TEST(SilhouetteRoom, blurIsWarnedAboutAndThenRefused) {
+  Scene s = shirt({170, 40, 40}, grey(235));
+  const auto blurred = [&](double sigma) {
+    cv::Mat soft;
+    cv::GaussianBlur(s.rgb, soft, {}, sigma);
+    noise(soft, 1.5, 17);
+    return find_silhouette(photo_of(soft));
+  };
+  const auto sharp = blurred(0.4), soft = blurred(1.9), hopeless = blurred(4.5);
+  ASSERT_TRUE(sharp) << sharp.error().message;
+  EXPECT_TRUE(sharp->warnings.empty());
+  ASSERT_TRUE(soft) << soft.error().message;
+  EXPECT_EQ(soft->warnings, std::vector<std::string>{"BLURRED"});
+  EXPECT_EQ(code(hopeless), "BLURRED");
+}
+
 TEST(SilhouetteRoom, tinyGarmentIsRefused) {
   Scene s = shirt({40, 60, 150}, grey(235), {}, 0.2);
   noise(s.rgb, 1, 37);

@@ -29,7 +29,7 @@ struct Silhouette {
 /// Sobel 3x3, thinning, first/last edge per row and column, an unused colour as background; where that fails (low
 /// contrast, textured ground) a colour model takes over. Hangers, hooks, shadows and loose threads are removed; holes
 /// between sleeve and body stay open.
-/// Errors (65): LOW_CONTRAST, TOUCHES_FRAME, SEVERAL_GARMENTS, TOO_SMALL.
+/// Errors (65): LOW_CONTRAST, TOUCHES_FRAME, SEVERAL_GARMENTS, TOO_SMALL, BLURRED.
 Result<Silhouette> find_silhouette(const Photo& photo, const SilhouetteOptions& options = {});
 
 }  // namespace vitrine

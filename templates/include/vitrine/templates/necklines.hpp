@@ -3,7 +3,8 @@
 // The three necklines of the paper (III.A), each a curve over the neck edge: s along the edge, depth towards the hem.
 //
 // The ratio ranges follow from the curves. In the box under the neck edge a V leaves as much foreground as background
-// (ratio 1), a square neck none (0), a half ellipse (1 - pi/4) / (pi/4) = 0.27; the limits lie between.
+// (ratio 1), a square neck none (0), a half ellipse (1 - pi/4) / (pi/4) = 0.27. The limits lie between; sewn square necks have round corners and leaning sides,
+// which bring them to 0.1 to 0.25.
 #include <array>
 
 #include "vitrine/plugin.hpp"
@@ -28,9 +29,9 @@ inline constexpr std::array<vitrine_profile_point, 3> v_profile = {{{0.0, 0.0}, 
 inline constexpr std::array<vitrine_profile_point, 4> square_profile = {
     {{0.0, 0.0}, {0.04, 1.0}, {0.96, 1.0}, {1.0, 0.0}}};
 
-inline constexpr vitrine_neckline neck_u = {"neck_u", "U-neck", sdk::span(u_profile), 0.12, 0.50, 0.60};
+inline constexpr vitrine_neckline neck_u = {"neck_u", "U-neck", sdk::span(u_profile), 0.18, 0.50, 0.60};
 inline constexpr vitrine_neckline neck_v = {"neck_v", "V-neck", sdk::span(v_profile), 0.50, 100.0, 0.75};
 inline constexpr vitrine_neckline neck_square = {"neck_square", "Square neck", sdk::span(square_profile),
-                                                 0.0,           0.12,          0.50};
+                                                 0.0,           0.18,          0.50};
 
 }  // namespace vitrine::templates
