@@ -38,6 +38,30 @@ void close_notches(cv::Mat& mask) {
   }
 }
 
+/// Where `wanted` features (each with its side) would lie if the garment were as wide on their side as on their
+/// partners'; empty unless all partners were seen.
+std::vector<Vec2> mirrored_places(const GarmentTemplate& garment, const Outline& outline, const Match& match,
+                                  const std::vector<std::pair<int, int>>& wanted) {
+  if (match.features.empty()) return {};
+  const auto place = [&](int f) { return outline.samples[match.features[f].sample].at; };
+  double middle = 0;
+  int pairs = 0;
+  for (int f = 0; f < static_cast<int>(garment.features.size()); ++f) {
+    const int partner = garment.features[f].mirror;
+    if (partner <= f || !match.features[f].snapped || !match.features[partner].snapped) continue;
+    middle += (place(f).x() + place(partner).x()) / 2;
+    ++pairs;
+  }
+  if (pairs == 0) return {};
+  std::vector<Vec2> places;
+  for (const auto& [f, side] : wanted) {
+    const int partner = garment.features[f].mirror;
+    if (partner < 0 || !match.features[partner].snapped) return {};
+    places.emplace_back(2 * middle / pairs - place(partner).x(), place(partner).y());
+  }
+  return places;
+}
+
 /// Sleeves without any gap to the body: where a limb's armpit was not found as a corner, the template's place is tried.
 /// True when the outline has the notch of a cuff on the body, so that this is what is wrong with it.
 bool free_hidden_sleeves(const GarmentTemplate& garment, const FeatureOptions& options, cv::Mat& mask, Outline& outline,
@@ -52,19 +76,32 @@ bool free_hidden_sleeves(const GarmentTemplate& garment, const FeatureOptions& o
   bool notched = false;
   cv::Mat best_mask;
   Outline best_outline;
+  // Guesses of the closed armpits' places: across from the other side's, when that one was seen; else each pose's.
+  std::vector<std::vector<Vec2>> guesses;
+  if (auto places = mirrored_places(garment, outline, match, closed); !places.empty())
+    guesses.push_back(std::move(places));
+  const bool across = !guesses.empty();
+  bool across_fits = false;
   for (const TemplatePose& pose : garment.poses) {
+    std::vector<Vec2> places;
+    for (const auto& [f, side] : closed)
+      places.emplace_back(outline.box.x + pose.uv[f].x() * outline.box.width,
+                          outline.box.y + pose.uv[f].y() * outline.box.height);
+    guesses.push_back(std::move(places));
+  }
+  for (const std::vector<Vec2>& places : guesses) {
     cv::Mat tried = mask.clone();
     bool cut = false;
-    for (const auto& [f, side] : closed) {
-      const Vec2 armpit(outline.box.x + pose.uv[f].x() * outline.box.width,
-                        outline.box.y + pose.uv[f].y() * outline.box.height);
-      cut = cut_hidden_gap(tried, outline, armpit, side) || cut;
-    }
+    for (std::size_t k = 0; k < closed.size(); ++k)
+      cut = cut_hidden_gap(tried, outline, places[k], closed[k].second) || cut;
     if (!cut) continue;
     notched = true;
     Outline freed = trace_outline(tried, options);
     Match again = match_template(freed, tried, garment);
-    if (again.score <= std::max(match.score, kMinScore)) continue;
+    // Once what the other side shows has fitted, a pose has to fit clearly better.
+    const double lead = !best_mask.empty() && across_fits ? 0.05 : 0;
+    if (again.score <= std::max(match.score + lead, kMinScore)) continue;
+    across_fits = across_fits || (across && &places == &guesses.front());
     match = std::move(again);
     best_mask = tried;
     best_outline = std::move(freed);

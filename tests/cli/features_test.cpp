@@ -139,6 +139,28 @@ TEST(FeaturesCommand, mirrored_photo_given_as_back_has_mirrored_points) {
   }
 }
 
+TEST(FeaturesCommand, lying_photo_is_turned_upright_and_its_points_are_on_the_photo_as_given) {
+  const fs::path folder = scratch();
+  const auto upright = points_of(
+      seen("--front " + in_quotes(edited("vest-terracotta-front.jpg", folder, [](auto&) {})) + " --garment vest"));
+  for (const int turn : {cv::ROTATE_90_CLOCKWISE, cv::ROTATE_180, cv::ROTATE_90_COUNTERCLOCKWISE}) {
+    SCOPED_TRACE(turn);
+    cv::Size size;
+    const fs::path lying = edited("vest-terracotta-front.jpg", folder, [&](cv::Mat& m) {
+      size = m.size();
+      cv::rotate(m, m, turn);
+    });
+    const auto points = points_of(seen("--front " + in_quotes(lying) + " --garment vest"));
+    ASSERT_EQ(points.size(), upright.size());
+    for (const auto& [name, p] : upright) {
+      const cv::Point2d wanted = turn == cv::ROTATE_90_CLOCKWISE ? cv::Point2d(size.height - 1 - p.y, p.x)
+                                 : turn == cv::ROTATE_180 ? cv::Point2d(size.width - 1 - p.x, size.height - 1 - p.y)
+                                                          : cv::Point2d(p.y, size.width - 1 - p.x);
+      EXPECT_LT(cv::norm(points.at(name) - wanted), 0.01 * size.height) << name << " left and right are the garment's";
+    }
+  }
+}
+
 TEST(FeaturesCommand, mask_has_the_photos_size_and_three_values) {
   const fs::path folder = scratch(), mask = folder / "mask.png";
   const std::string front = in_quotes(sample + "vest-sailor-front.jpg");
@@ -233,9 +255,10 @@ TEST(FeaturesCommand, refusal_is_json_too_and_ends_with_the_errors_code) {
   EXPECT_EQ(unknown.at("status"), "UNKNOWN_GARMENT");
   EXPECT_NE(unknown.at("remedy").get<std::string>().find("long_sleeve"), std::string::npos);
 
-  const json other = seen("--front " + in_quotes(sample + "long-sleeve-sunrise-front.jpg") + " --garment skirt --mask " +
-                              in_quotes(folder / "mask.png") + " --overlay " + in_quotes(folder / "overlay.png"),
-                          65);
+  const json other =
+      seen("--front " + in_quotes(sample + "long-sleeve-sunrise-front.jpg") + " --garment skirt --mask " +
+               in_quotes(folder / "mask.png") + " --overlay " + in_quotes(folder / "overlay.png"),
+           65);
   EXPECT_EQ(other.at("status"), "NOT_THIS_GARMENT");
   EXPECT_EQ(other.at("stage"), "features");
   // The silhouette was found, and helps to see why.
