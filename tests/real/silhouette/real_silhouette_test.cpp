@@ -81,7 +81,7 @@ TEST(RealSilhouettes, noGarmentIsSilentlyCutWrong) {
   std::printf("%d photos ran, %d refused; mean IoU plain %.4f, other %.4f\n", ran, refused,
               mean[true].first / mean[true].second, mean[false].first / mean[false].second);
   EXPECT_LE(refused, ran / 10);
-  EXPECT_GE(mean[true].first / mean[true].second, 0.975);
+  EXPECT_GE(mean[true].first / mean[true].second, 0.98);
   EXPECT_GE(mean[false].first / mean[false].second, 0.965);
 }
 

@@ -19,16 +19,18 @@ struct SilhouetteOptions {
 struct Silhouette {
   Image labels;  ///< Label values, 1 channel, the size of Photo::rgb. Without a shop mask no pixel is label_inside
                  ///< yet: the inside of the back is found with the neckline, by the features room.
-  std::string method;  ///< "mask", "alpha", "sobel" (the paper's scan) or "colour" (the stronger model that took over)
+  std::string method;  ///< "mask", "alpha", "sobel" (the paper's scan found it, colours sharpened it) or "colour" (the
+                       ///< scan could not be trusted: the colours along the border started it)
   std::string method_reason;  ///< why the paper's scan was not enough; empty when it was
   double edge_support = 0;    ///< [-] share of the contour that lies on a picture edge
   double contrast = 0;        ///< [-] share of the contour whose two sides differ in colour; the LOW_CONTRAST gate
   std::vector<std::string> warnings;  ///< reason codes of gates that did not refuse
 };
 
-/// Sobel 3x3, thinning, first/last edge per row and column, an unused colour as background; where that fails (low
-/// contrast, textured ground) a colour model takes over. Hangers, hooks, shadows and loose threads are removed; holes
-/// between sleeve and body stay open.
+/// Sobel 3x3, thinning, first/last edge per row and column, an unused colour as background, on a picture of
+/// working_side. What it finds, or where it fails (low contrast, textured ground) the picture's border, starts a cut of
+/// the colours of garment and ground, which is sharpened in a band along its contour and taken to the photo's own size.
+/// Hangers, hooks, shadows and loose threads are removed; holes between sleeve and body stay open.
 /// Errors (65): LOW_CONTRAST, TOUCHES_FRAME, SEVERAL_GARMENTS, TOO_SMALL, BLURRED.
 Result<Silhouette> find_silhouette(const Photo& photo, const SilhouetteOptions& options = {});
 
