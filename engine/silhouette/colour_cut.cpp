@@ -79,6 +79,7 @@ cv::Mat link_costs(const cv::Mat& lab, const cv::Mat& where) {
 /// garment's side. `links` must be known wherever a pixel or its neighbour is open.
 cv::Mat minimum_cut(const cv::Mat& links, const cv::Mat& unary, const cv::Mat& open, const cv::Mat& mask) {
   const int w = open.cols, h = open.rows, count = cv::countNonZero(open);
+  if (count == 0) return mask.clone();
   cv::detail::GCGraph<float> graph(static_cast<unsigned>(count), static_cast<unsigned>(8 * count + 8));
   cv::Mat node(open.size(), CV_32S, cv::Scalar(-1));
   std::vector<float> source(static_cast<std::size_t>(count), 0), sink(source);

@@ -224,6 +224,21 @@ TEST(SilhouetteRoom, twoGarmentsAreRefused) {
   EXPECT_EQ(code(find_silhouette(photo_of(s.rgb))), "SEVERAL_GARMENTS");
 }
 
+TEST(SilhouetteRoom, picturesOfNothingAreRefusedWhateverTheirShape) {
+  for (const cv::Size size : {cv::Size(64, 64), cv::Size(2400, 64), cv::Size(64, 1200), cv::Size(500, 400)}) {
+    cv::Mat flat(size, CV_8UC3, grey(200)), noisy = flat.clone(), ramp = flat.clone();
+    noise(noisy, 40, 5);
+    falloff(ramp);
+    for (const cv::Mat& picture : {flat, cv::Mat(flat * 0), noisy, ramp}) {
+      const auto r = find_silhouette(photo_of(picture));
+      if (!r) {
+        EXPECT_EQ(r.error().exit_code(), 65) << r.error().message;
+      }
+    }
+    EXPECT_FALSE(find_silhouette(photo_of(flat)));
+  }
+}
+
 TEST(SilhouetteRoom, blurIsWarnedAboutAndThenRefused) {
   Scene s = shirt({170, 40, 40}, grey(235));
   const auto blurred = [&](double sigma) {
