@@ -179,6 +179,7 @@ struct Asked {
   bool grabcut = false;
   int repeat = 1;
   std::string pictures;
+  std::string save;
 };
 
 /// The photo, greyed, with what was found too much in red and what was missed in blue.
@@ -197,6 +198,12 @@ Row measure(const Case& c, const PluginRegistry& registry, const Asked& asked) {
   row.garment = c.garment;
   row.ground = c.ground;
   const cv::Mat rgb = view(c.photo.rgb), truth = view(c.truth) > 0;
+  if (!asked.save.empty()) {
+    cv::Mat bgr;
+    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+    cv::imwrite(asked.save + "/" + c.name + ".png", bgr);
+    cv::imwrite(asked.save + "/" + c.name + ".mask.png", view(c.truth));
+  }
   row.megapixel = 1e-6 * static_cast<double>(rgb.total());
   Result<Silhouette> seen = Error{};
   row.silhouette_ms = 1e30;
@@ -352,6 +359,8 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1, 99));
   app.add_flag("--grabcut", asked.grabcut, "Also run the peer");
   app.add_option("--pictures", asked.pictures, "Draw found against marked silhouettes into this folder")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--save", asked.save, "Write each photo and its marked labels as PNG into this folder")
       ->check(CLI::ExistingDirectory);
   app.add_option("--csv", csv, "Write the rows here");
   app.add_option("--svg", svg, "Draw the rows here");

@@ -219,6 +219,7 @@ Outline settle_neckline(const Work& work, cv::Mat& panel, Outline outline, std::
   for (const NecklineTemplate& n : work.necklines)
     if (n.id == work.options.neckline) forced = &n;
   features.neckline.inside_found = inside_given;
+  settle_neck_points(outline, work.garment, features.tilt_deg, place);
   if (!inside_given && work.options.side == Side::front) {
     const std::vector<Vec2> top = stretch(outline.chain, place[neck.from], place[neck.to]);
     const NeckPath path = find_front_neckline(work.photo.rgb, panel, top, forced);

@@ -20,6 +20,11 @@ struct NeckPath {
 NeckPath find_front_neckline(const Image& rgb, const cv::Mat& mask, const std::vector<Vec2>& top,
                              const NecklineTemplate* shape);
 
+/// Neck points that were taken on the shoulder line or on a label move to the corner where the neckline begins. `place`
+/// holds the features' places on the outline's chain.
+void settle_neck_points(const Outline& outline, const GarmentTemplate& garment, double tilt_deg,
+                        std::vector<int>& place);
+
 /// Paper Fig. 2: the rectangle spanned by both neck points and the lowest point between them, turned with the line of
 /// the neck points; foreground / background pixels in it. `low` is that lowest point.
 double neck_ratio(const cv::Mat& panel, const std::vector<Vec2>& neck_edge, Vec2& low);
