@@ -89,19 +89,19 @@ bool free_hidden_sleeves(const GarmentTemplate& garment, const FeatureOptions& o
                           outline.box.y + pose.uv[f].y() * outline.box.height);
     guesses.push_back(std::move(places));
   }
-  for (const std::vector<Vec2>& places : guesses) {
+  for (std::size_t g = 0; g < guesses.size(); ++g) {
     cv::Mat tried = mask.clone();
     bool cut = false;
     for (std::size_t k = 0; k < closed.size(); ++k)
-      cut = cut_hidden_gap(tried, outline, places[k], closed[k].second) || cut;
+      cut = cut_hidden_gap(tried, outline, guesses[g][k], closed[k].second) || cut;
     if (!cut) continue;
     notched = true;
     Outline freed = trace_outline(tried, options);
     Match again = match_template(freed, tried, garment);
     // Once what the other side shows has fitted, a pose has to fit clearly better.
-    const double lead = !best_mask.empty() && across_fits ? 0.05 : 0;
+    const double lead = across_fits ? 0.05 : 0;
     if (again.score <= std::max(match.score + lead, kMinScore)) continue;
-    across_fits = across_fits || (across && &places == &guesses.front());
+    across_fits = across_fits || (across && g == 0);
     match = std::move(again);
     best_mask = tried;
     best_outline = std::move(freed);

@@ -64,12 +64,13 @@ double tip_sharpness(const std::vector<Vec2>& edge) {
   constexpr double kReach = 0.3;
   const auto rise = [&](int step) {
     const double whole = step < 0 ? tip : 1 - tip, reach = std::min(kReach, 0.7 * whole);
-    double nearest = 1e30, height = 0;
-    for (const Vec2& p : line) {
-      const double off = std::abs(p.x() - (tip + step * reach));
-      if (off >= nearest) continue;
-      nearest = off;
-      height = depth - p.y();
+    // A profile may be a few points only, so that the course between them counts.
+    const double at = tip + step * reach;
+    double height = depth;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const Vec2 &a = line[i - 1], &b = line[i];
+      if (a.x() == b.x() || (a.x() - at) * (b.x() - at) > 0) continue;
+      height = std::min(height, depth - (a.y() + (b.y() - a.y()) * (at - a.x()) / (b.x() - a.x())));
     }
     return height / reach / (depth / whole);
   };

@@ -52,7 +52,8 @@ float log_norm(const Eigen::Matrix3d& covariance) {
                             0.5 * std::log(std::max(covariance.determinant(), 1e-12)));
 }
 
-/// e^x to about 0.1 %, for x <= 20; 0 below -80. Plain arithmetic, so that rows are computed four pixels at a time.
+/// e^x to about 0.1 %, for x <= 80; next to nothing below -80. Plain arithmetic, so that rows are computed four pixels
+/// at a time.
 inline float quick_exp(float x) {
   const float t = std::max(x, -80.0f) * 1.44269504f + 127.0f;
   const int whole = static_cast<int>(t);

@@ -107,10 +107,11 @@ std::optional<Error> judge(const Photo& photo, const WorkPicture& work, const cv
     return refuse(photo, "LOW_CONTRAST", "along much of its outline the garment looks like the ground it lies on.",
                   "Lay it on a board of another colour: a light garment on dark, a dark one on white; or add a mask.");
   const double blur = c.blur / std::max(mask.cols, mask.rows);
-  if (blur > max_blur)
+  // A drawn outline need not lie on the edge, so that nothing can be said of the edge's width.
+  if (blur > max_blur && !drawn)
     return refuse(photo, "BLURRED", "the photo is out of focus or shaken.",
                   "Take it again with a steady camera and the focus on the garment.");
-  if (blur > much_blur) out.warnings.push_back("BLURRED");
+  if (blur > much_blur && !drawn) out.warnings.push_back("BLURRED");
   if (!drawn && (c.sides_differ < 0.9 || c.edge_support < 0.85)) out.warnings.push_back("LOW_CONTRAST");
   return std::nullopt;
 }

@@ -255,6 +255,17 @@ TEST(SilhouetteRoom, blurIsWarnedAboutAndThenRefused) {
   EXPECT_EQ(code(hopeless), "BLURRED");
 }
 
+TEST(SilhouetteRoom, roughlyDrawnMaskOnASharpPhotoIsNotCalledBlurred) {
+  Scene s = shirt({170, 40, 40}, grey(235));
+  cv::Mat drawn;
+  cv::dilate(s.truth, drawn, cv::getStructuringElement(cv::MORPH_ELLIPSE, {13, 13}));
+  Photo photo = photo_of(s.rgb);
+  photo.mask = grey_image(drawn);
+  const auto r = find_silhouette(photo);
+  ASSERT_TRUE(r) << r.error().message;
+  EXPECT_TRUE(r->warnings.empty());
+}
+
 TEST(SilhouetteRoom, tinyGarmentIsRefused) {
   Scene s = shirt({40, 60, 150}, grey(235), {}, 0.2);
   noise(s.rgb, 1, 37);
