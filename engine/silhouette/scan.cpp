@@ -167,19 +167,6 @@ cv::Mat thin_edges(const cv::Mat& edges) {
   return e(cv::Rect(1, 1, edges.cols, edges.rows)).clone();
 }
 
-cv::Vec3b unused_colour(const cv::Mat& rgb) {
-  std::vector<bool> seen(1u << 24, false);
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x) {
-      const cv::Vec3b c = rgb.at<cv::Vec3b>(y, x);
-      seen[c[0] << 16 | c[1] << 8 | c[2]] = true;
-    }
-  // A picture has at most 2400 x 2400 pixels, fewer than there are colours: one is always free.
-  const auto free = static_cast<unsigned>(std::find(seen.begin(), seen.end(), false) - seen.begin());
-  return {static_cast<std::uint8_t>(free >> 16 & 255), static_cast<std::uint8_t>(free >> 8 & 255),
-          static_cast<std::uint8_t>(free & 255)};
-}
-
 Scan scan_edges(const WorkPicture& work) {
   Scan scan;
   const cv::Mat &rgb = work.rgb, &magnitude = work.edges, &lab = work.lab;
@@ -191,7 +178,6 @@ Scan scan_edges(const WorkPicture& work) {
   cv::Mat edges = thin_edges(strong);
   drop_specks(edges, std::max(4, side / 50));
   cv::Mat region = between_edges(edges);
-  scan.unused = unused_colour(rgb);
   scan.mask = region;
   const double share = cv::countNonZero(region) / static_cast<double>(region.total());
   if (noise > 120)
@@ -266,8 +252,6 @@ Scan scan_edges(const WorkPicture& work) {
     scan.doubt = "the outline does not lie on edges everywhere";
   else if (cv::countNonZero(touch) > 0)
     scan.doubt = "the outline reaches the border of the photo";
-  scan.painted = rgb.clone();
-  scan.painted.setTo(cv::Scalar(scan.unused[0], scan.unused[1], scan.unused[2]), ~scan.mask);
   return scan;
 }
 

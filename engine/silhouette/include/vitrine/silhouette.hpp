@@ -27,10 +27,10 @@ struct Silhouette {
   std::vector<std::string> warnings;  ///< reason codes of gates that did not refuse
 };
 
-/// Sobel 3x3, thinning, first/last edge per row and column, an unused colour as background, on a picture of
-/// working_side. What it finds, or where it fails (low contrast, textured ground) the picture's border, starts a cut of
-/// the colours of garment and ground, which is sharpened in a band along its contour and taken to the photo's own size.
-/// Hangers, hooks, shadows and loose threads are removed; holes between sleeve and body stay open.
+/// Sobel 3x3, thinning, first/last edge per row and column, on a picture of working_side; label_background is what the
+/// paper's unused colour is. What it finds, or where it fails (low contrast, textured ground) the picture's border,
+/// starts a cut of the colours of garment and ground, which is sharpened in a band along its contour and taken to the
+/// photo's own size. Hangers, hooks, shadows and loose threads are removed; holes between sleeve and body stay open.
 /// Errors (65): LOW_CONTRAST, TOUCHES_FRAME, SEVERAL_GARMENTS, TOO_SMALL, BLURRED.
 Result<Silhouette> find_silhouette(const Photo& photo, const SilhouetteOptions& options = {});
 
