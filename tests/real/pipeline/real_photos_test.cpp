@@ -3,9 +3,11 @@
 // where there is one and a mirrored back otherwise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "vitrine/host/registry.hpp"
@@ -49,6 +51,39 @@ bool finite(const RenderMesh& mesh) {
   return !mesh.positions.empty();
 }
 
+/// What a sewn garment is as a surface.
+struct Surface {
+  int pieces = 0;                ///< connected
+  std::vector<double> openings;  ///< [m] girth of each closed boundary
+};
+
+Surface surface_of(const Conversion& item) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  std::map<std::uint32_t, Vec3> at;
+  for (std::size_t panel = 0; panel < item.pattern.meshes.size(); ++panel) {
+    const auto& id = item.drape.welded[panel];
+    for (std::size_t node = 0; node < id.size(); ++node) at[id[node]] = item.drape.positions[panel][node];
+    for (const Triangle& t : item.pattern.meshes[panel].triangles)
+      for (int k = 0; k < 3; ++k) ++uses[std::minmax(id[t[k]], id[t[(k + 1) % 3]])];
+  }
+  std::map<std::uint32_t, std::uint32_t> piece, rim;
+  const auto root = [](std::map<std::uint32_t, std::uint32_t>& tree, std::uint32_t n) {
+    for (tree.try_emplace(n, n); tree.at(n) != n;) n = tree.at(n);
+    return n;
+  };
+  for (const auto& [edge, count] : uses) {
+    piece[root(piece, edge.first)] = root(piece, edge.second);
+    if (count == 1) rim[root(rim, edge.first)] = root(rim, edge.second);
+  }
+  Surface surface;
+  for (const auto& [node, parent] : piece) surface.pieces += node == parent;
+  std::map<std::uint32_t, double> girth;
+  for (const auto& [edge, count] : uses)
+    if (count == 1) girth[root(rim, edge.first)] += (at[edge.first] - at[edge.second]).norm();
+  for (const auto& [node, length] : girth) surface.openings.push_back(length);
+  return surface;
+}
+
 }  // namespace
 
 TEST(RealPhotos, most_convert_within_the_bars_and_the_rest_say_why) {
@@ -76,6 +111,7 @@ TEST(RealPhotos, most_convert_within_the_bars_and_the_rest_say_why) {
     request.mirror_back = item.back.empty();
     request.garment = *garment;
     request.necklines.assign(registry.necklines().begin(), registry.necklines().end());
+    request.others.assign(registry.garments().begin(), registry.garments().end());
     request.quality = Quality::draft;
     request.body = body;
     const Conversion result = convert(request);
@@ -93,6 +129,11 @@ TEST(RealPhotos, most_convert_within_the_bars_and_the_rest_say_why) {
     EXPECT_LE(d.penetration_mm_max, 2.0) << item.name;
     EXPECT_LE(d.residual, 1e-2) << item.name;
     EXPECT_TRUE(finite(result.garment)) << item.name;
+    const Surface surface = surface_of(result);
+    EXPECT_EQ(surface.pieces, 1) << item.name;
+    // Neck, hem and both arms; of a skirt waist and hem.
+    EXPECT_EQ(surface.openings.size(), item.garment == "skirt" ? 2u : 4u) << item.name;
+    for (const double girth : surface.openings) EXPECT_GT(girth, 0.12) << item.name << ": an opening is closed";
   }
   std::printf("real photos: %d of %zu converted\n", converted, items.size());
   EXPECT_GE(converted, 17);
