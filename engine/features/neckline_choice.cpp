@@ -106,9 +106,11 @@ int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, d
     }
   }
   int choice = best;
-  // Sharpness is a ratio of slopes, so that it is compared as one; a square tip (0) counts as nearly flat.
+  // Sharpness is a ratio of slopes, so that it is compared as one; a square tip (0) counts as nearly flat, for even a
+  // deep U with straight sides rises by an eighth of a V within the reach.
+  constexpr double kFlat = 0.04;
   const auto miss_of = [&](const NecklineTemplate& n) {
-    return std::abs(std::log(std::max(0.06, tip_sharpness(n.profile)) / std::max(0.06, sharpness)));
+    return std::abs(std::log(std::max(kFlat, tip_sharpness(n.profile)) / std::max(kFlat, sharpness)));
   };
   double closest = miss_of(necklines[best]);
   for (int i = 0; i < static_cast<int>(necklines.size()); ++i) {
