@@ -13,8 +13,9 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 add_library(vitrine_flags INTERFACE)
 # No contraction into fused multiply-adds, no fast-math, no -march=native: the same input has to give the same bytes on
-# every x86-64 machine and at every optimisation level.
-target_compile_options(vitrine_flags INTERFACE -ffp-contract=off -Wall -Wextra
+# every x86-64 machine and at every optimisation level. Nobody reads floating-point traps or errno after a square root;
+# without them, loops with a comparison or a root are computed several numbers at a time.
+target_compile_options(vitrine_flags INTERFACE -ffp-contract=off -fno-trapping-math -fno-math-errno -Wall -Wextra
   $<$<COMPILE_LANGUAGE:CXX>:-Wconversion -Wno-sign-conversion> $<$<BOOL:${VITRINE_WERROR}>:-Werror>)
 # GCC 12 warns of overlapping copies inside std::string's own operator+ at -O3 (GCC bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

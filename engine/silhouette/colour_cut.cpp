@@ -140,7 +140,6 @@ void clip(cv::Mat& unary) {
 
 cv::Mat ColourCut::start(const cv::Mat& rgb, const cv::Mat& known) {
   const cv::Mat lab = lab_from_rgb(rgb);
-  const Planes planes(lab);
   const cv::Mat everywhere(lab.size(), CV_8U, cv::Scalar(255)), links = link_costs(lab, everywhere),
                                                                 prior = prior_of(lab.size());
   cv::Mat mask, score(lab.size(), CV_32F), unary;
@@ -149,7 +148,7 @@ cv::Mat ColourCut::start(const cv::Mat& rgb, const cv::Mat& known) {
     ground_.fit(lab, seed);
     if (ground_.empty()) return cv::Mat::zeros(lab.size(), CV_8U);
     // First cut: how unlike the ground alone. The border itself says what "like" means.
-    ground_.score(planes, everywhere, false, score);
+    ground_.score(lab, everywhere, false, score);
     const float usual = percentile(score, seed, 0.5), limit = percentile(score, seed, 0.95);
     unary = score - (limit + 0.25f * (limit - usual)) + 2.5f * (prior - 0.6f);
     clip(unary);
@@ -168,8 +167,8 @@ cv::Mat ColourCut::start(const cv::Mat& rgb, const cv::Mat& known) {
     if (cv::countNonZero(rest) < 50) return mask;
     cloth_.fit(lab, mostly_deep(body));
     ground_.fit(lab, rest);
-    ground_.score(planes, everywhere, true, score);
-    cloth_.add_score(planes, everywhere, score);
+    ground_.score(lab, everywhere, true, score);
+    cloth_.add_score(lab, everywhere, score);
     unary = score + (prior - 0.6f);
     clip(unary);
     const cv::Mat next = whole_cut(links, unary);
@@ -191,9 +190,8 @@ cv::Mat ColourCut::sharpen(const cv::Mat& lab, const cv::Mat& mask, int reach, c
   const cv::Mat band = outer & ~inner;
   // Holes are asked as well, for what becomes of them depends on whether they show the ground.
   const cv::Mat asked = band | enclosed(rough);
-  const Planes planes(lab);
-  ground_.score(planes, asked, true, score);
-  cloth_.add_score(planes, asked, score);
+  ground_.score(lab, asked, true, score);
+  cloth_.add_score(lab, asked, score);
   ground_like = (score < -2) | ~(outer | asked);
   clip(score);
   cv::Mat linked;

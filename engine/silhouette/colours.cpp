@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "densities.hpp"
 #include "picture.hpp"
 
 namespace vitrine {
@@ -19,6 +19,7 @@ constexpr int ground_parts = 10;
 constexpr int cloth_parts = 6;
 constexpr std::size_t max_samples = 2400;
 constexpr int first_rounds = 6, later_rounds = 2;
+constexpr float lift = 16;                  ///< [L] black's distance from the Lab origin of linear light
 constexpr double darkest_shade = 0.58;      ///< cube root of the least light that is left in a cast shadow
 constexpr double shade_penalty = 2.0;       ///< [nat] shade is rarer than lit ground
 constexpr double shade_depth_penalty = 12;  ///< [nat] per unit of 1 - t: deep shade is rarer than a soft one
@@ -52,73 +53,34 @@ float log_norm(const Eigen::Matrix3d& covariance) {
                             0.5 * std::log(std::max(covariance.determinant(), 1e-12)));
 }
 
-/// e^x to about 0.1 %, for x <= 80; next to nothing below -80. Plain arithmetic, so that rows are computed four pixels
-/// at a time.
-inline float quick_exp(float x) {
-  const float t = std::max(x, -80.0f) * 1.44269504f + 127.0f;
-  const int whole = static_cast<int>(t);
-  const float rest = t - static_cast<float>(whole);
-  const float mantissa = 1.0f + rest * (0.69606564f + rest * (0.22449433f + rest * 0.07944023f));
-  return std::bit_cast<float>(whole << 23) * mantissa;
-}
-
-/// Log of a sum of densities along a row: the sum itself, and for colours far from all of them the largest log.
-struct LogSum {
-  std::vector<float> sum, largest;
-  explicit LogSum(int n) : sum(static_cast<std::size_t>(n)), largest(static_cast<std::size_t>(n)) {}
-  void clear() {
-    std::fill(sum.begin(), sum.end(), 0.0f);
-    std::fill(largest.begin(), largest.end(), -1e30f);
+/// The wanted pixels of a part of a Lab picture, one after the other. L is lifted by 16, which makes shade a common
+/// factor of all three channels.
+struct Gathered {
+  std::vector<float> l, a, b;
+  std::vector<cv::Point> at;
+  LogSum density;
+  void take(const cv::Mat& lab, const cv::Mat& where, const cv::Rect& box) {
+    l.clear();
+    a.clear();
+    b.clear();
+    at.clear();
+    for (int y = box.y; y < box.y + box.height; ++y) {
+      const std::uint8_t* wanted = where.ptr(y);
+      const cv::Vec3f* colour = lab.ptr<cv::Vec3f>(y);
+      for (int x = box.x; x < box.x + box.width; ++x) {
+        if (!wanted[x]) continue;
+        l.push_back(colour[x][0] + lift);
+        a.push_back(colour[x][1]);
+        b.push_back(colour[x][2]);
+        at.emplace_back(x, y);
+      }
+    }
+    density.clear(at.size());
   }
-  float at(int i) const {
-    const auto k = static_cast<std::size_t>(i);
-    return sum[k] > 1e-25f ? std::log(sum[k]) : largest[k];
-  }
+  ColourRow row() const { return {l.data(), a.data(), b.data(), static_cast<int>(at.size())}; }
 };
 
-/// Adds the density exp(level - |U (colour - mean)|^2 / 2) of a row of pixels.
-void add_part(const float* l, const float* a, const float* b, int n, const Eigen::Matrix3f& u,
-              const Eigen::Vector3f& mean, float level, LogSum& out) {
-  const float u00 = u(0, 0), u01 = u(0, 1), u02 = u(0, 2), u11 = u(1, 1), u12 = u(1, 2), u22 = u(2, 2);
-  const float m0 = mean[0], m1 = mean[1], m2 = mean[2];
-  float *sum = out.sum.data(), *largest = out.largest.data();
-  for (int i = 0; i < n; ++i) {
-    const float d0 = l[i] - m0, d1 = a[i] - m1, d2 = b[i] - m2;
-    const float e0 = u00 * d0 + u01 * d1 + u02 * d2, e1 = u11 * d1 + u12 * d2, e2 = u22 * d2;
-    const float value = level - 0.5f * (e0 * e0 + e1 * e1 + e2 * e2);
-    sum[i] += quick_exp(value);
-    largest[i] = largest[i] > value ? largest[i] : value;
-  }
-}
-
-/// The same for a mean that may be darkened by any factor of a shade.
-void add_shade(const float* l, const float* a, const float* b, int n, const Eigen::Matrix3f& u,
-               const Eigen::Vector3f& lit, const Eigen::Vector3f& towards, float level, LogSum& out) {
-  const float u00 = u(0, 0), u01 = u(0, 1), u02 = u(0, 2), u11 = u(1, 1), u12 = u(1, 2), u22 = u(2, 2);
-  const float m0 = lit[0], m1 = lit[1], m2 = lit[2], t0 = towards[0], t1 = towards[1], t2 = towards[2];
-  const float low = static_cast<float>(darkest_shade), high = 0.97f;
-  const float depth = static_cast<float>(shade_depth_penalty);
-  float *sum = out.sum.data(), *largest = out.largest.data();
-  for (int i = 0; i < n; ++i) {
-    const float wish = t0 * l[i] + t1 * a[i] + t2 * b[i];
-    const float t = wish < low ? low : wish > high ? high : wish;
-    const float d0 = l[i] - t * m0, d1 = a[i] - t * m1, d2 = b[i] - t * m2;
-    const float e0 = u00 * d0 + u01 * d1 + u02 * d2, e1 = u11 * d1 + u12 * d2, e2 = u22 * d2;
-    const float value = level - depth * (1 - t) - 0.5f * (e0 * e0 + e1 * e1 + e2 * e2);
-    sum[i] += quick_exp(value);
-    largest[i] = largest[i] > value ? largest[i] : value;
-  }
-}
-
 }  // namespace
-
-Planes::Planes(const cv::Mat& lab) {
-  std::array<cv::Mat, 3> channel;
-  cv::split(lab, channel.data());
-  l = channel[0] + 16;  // the lift makes shade a common factor
-  a = channel[1];
-  b = channel[2];
-}
 
 void Ground::fit(const cv::Mat& lab, const cv::Mat& mask) {
   Vec5d floor;
@@ -154,15 +116,16 @@ void Ground::fit(const cv::Mat& lab, const cv::Mat& mask) {
   }
 }
 
-void Ground::score(const Planes& picture, const cv::Mat& where, bool shadows, cv::Mat& score) const {
-  const int w = picture.size().width, h = picture.size().height, side = std::max(w, h);
+void Ground::score(const cv::Mat& lab, const cv::Mat& where, bool shadows, cv::Mat& score) const {
+  const int w = lab.cols, h = lab.rows, side = std::max(w, h);
   const int cell = std::max(1, (side + cells - 1) / cells);
-  const Vec3d lift(16, 0, 0);
-  LogSum density(cell);
+  Gathered some;
+  const float darkest = static_cast<float>(darkest_shade), depth_cost = static_cast<float>(shade_depth_penalty);
   for (int y0 = 0; y0 < h; y0 += cell)
     for (int x0 = 0; x0 < w; x0 += cell) {
       const cv::Rect box(x0, y0, std::min(cell, w - x0), std::min(cell, h - y0));
-      if (cv::countNonZero(where(box)) == 0) continue;
+      some.take(lab, where, box);
+      if (some.at.empty()) continue;
       const Eigen::Vector2d place((x0 + 0.5 * box.width) / side * place_scale,
                                   (y0 + 0.5 * box.height) / side * place_scale);
       struct Here {
@@ -182,7 +145,7 @@ void Ground::score(const Planes& picture, const cv::Mat& where, bool shadows, cv
         total += share[k];
         // The slope is trusted within two standard deviations; beyond, the colour stays what it was there.
         const double reach = distance > 4 ? 2 / std::sqrt(distance) : 1;
-        const Vec3d lit = p.colour_mean + reach * (p.slope * at) + lift;
+        const Vec3d lit = p.colour_mean + reach * (p.slope * at) + Vec3d(lift, 0, 0);
         const Vec3d weighted = p.shade_inverse * lit;
         here[k].lit = lit.cast<float>();
         here[k].towards = (weighted / std::max(weighted.dot(lit), 1e-9)).cast<float>();
@@ -192,21 +155,13 @@ void Ground::score(const Planes& picture, const cv::Mat& where, bool shadows, cv
         here[k].level = log_share + parts_[k].colour_log_norm;
         here[k].shade_level = log_share + parts_[k].shade_log_norm - static_cast<float>(shade_penalty);
       }
-      for (int y = y0; y < y0 + box.height; ++y) {
-        const float *l = picture.l.ptr<float>(y) + x0, *a = picture.a.ptr<float>(y) + x0,
-                    *b = picture.b.ptr<float>(y) + x0;
-        density.clear();
-        for (std::size_t k = 0; k < n; ++k) {
-          add_part(l, a, b, box.width, parts_[k].colour_factor, here[k].lit, here[k].level, density);
-          if (shadows)
-            add_shade(l, a, b, box.width, parts_[k].shade_factor, here[k].lit, here[k].towards, here[k].shade_level,
-                      density);
-        }
-        const std::uint8_t* wanted = where.ptr(y) + x0;
-        float* out = score.ptr<float>(y) + x0;
-        for (int i = 0; i < box.width; ++i)
-          if (wanted[i]) out[i] = -density.at(i);
+      for (std::size_t k = 0; k < n; ++k) {
+        add_density(some.row(), parts_[k].colour_factor, here[k].lit, here[k].level, some.density);
+        if (shadows)
+          add_shade_density(some.row(), parts_[k].shade_factor, here[k].lit, here[k].towards, here[k].shade_level,
+                            darkest, depth_cost, some.density);
       }
+      for (std::size_t i = 0; i < some.at.size(); ++i) score.at<float>(some.at[i]) = -some.density.at(i);
     }
 }
 
@@ -216,28 +171,19 @@ void Cloth::fit(const cv::Mat& lab, const cv::Mat& mask) {
   mixture_.fit(samples, cloth_parts, Vec3d(1.0, 0.6, 0.6), first_rounds);
 }
 
-void Cloth::add_score(const Planes& picture, const cv::Mat& where, cv::Mat& score) const {
-  const int w = picture.size().width, h = picture.size().height;
-  LogSum density(w);
+void Cloth::add_score(const cv::Mat& lab, const cv::Mat& where, cv::Mat& score) const {
   std::vector<Eigen::Matrix3f> factors;
   for (const auto& p : mixture_.parts()) factors.push_back(factor(p.inverse));
-  for (int y = 0; y < h; ++y) {
-    const std::uint8_t* wanted = where.ptr(y);
-    const int first = static_cast<int>(std::find_if(wanted, wanted + w, [](auto v) { return v != 0; }) - wanted);
-    if (first == w) continue;
-    int last = w;
-    while (!wanted[last - 1]) --last;
-    density.clear();
+  Gathered some;
+  for (int y = 0; y < lab.rows; ++y) {
+    some.take(lab, where, {0, y, lab.cols, 1});
+    if (some.at.empty()) continue;
     for (std::size_t k = 0; k < factors.size(); ++k) {
       const auto& p = mixture_.parts()[k];
-      Eigen::Vector3f mean = p.mean.cast<float>();
-      mean[0] += 16;
-      add_part(picture.l.ptr<float>(y) + first, picture.a.ptr<float>(y) + first, picture.b.ptr<float>(y) + first,
-               last - first, factors[k], mean, static_cast<float>(p.log_norm), density);
+      const Eigen::Vector3f mean = (p.mean + Vec3d(lift, 0, 0)).cast<float>();
+      add_density(some.row(), factors[k], mean, static_cast<float>(p.log_norm), some.density);
     }
-    float* out = score.ptr<float>(y);
-    for (int x = first; x < last; ++x)
-      if (wanted[x]) out[x] += density.at(x - first);
+    for (std::size_t i = 0; i < some.at.size(); ++i) score.at<float>(some.at[i]) += some.density.at(i);
   }
 }
 

@@ -8,13 +8,6 @@
 
 namespace vitrine {
 
-/// A Lab picture as three planes of floats, so that the densities below run over rows of one channel.
-struct Planes {
-  cv::Mat l, a, b;
-  explicit Planes(const cv::Mat& lab);
-  cv::Size size() const { return l.size(); }
-};
-
 /// The ground: density of a colour *given the place*, so that a board that is lighter on one side, or a wall in two
 /// colours, is ground everywhere in its own colour only. Places are shares of the picture, so that a model fitted to a
 /// small picture serves a larger one.
@@ -26,7 +19,7 @@ class Ground {
   /// Minus the log density of each pixel of `where` (CV_8U; other pixels of `score` are left alone). With `shadows`, a
   /// colour may also be this ground in shade: less light scales the linear colour, which in Lab scales (L + 16, a, b)
   /// by a common factor t, the cube root of the light that is left.
-  void score(const Planes& picture, const cv::Mat& where, bool shadows, cv::Mat& score) const;
+  void score(const cv::Mat& lab, const cv::Mat& where, bool shadows, cv::Mat& score) const;
 
  private:
   struct Part {
@@ -48,7 +41,7 @@ class Cloth {
  public:
   void fit(const cv::Mat& lab, const cv::Mat& mask);
   /// Adds the log density of each pixel of `where` to `score`.
-  void add_score(const Planes& picture, const cv::Mat& where, cv::Mat& score) const;
+  void add_score(const cv::Mat& lab, const cv::Mat& where, cv::Mat& score) const;
 
  private:
   Mixture<3> mixture_;

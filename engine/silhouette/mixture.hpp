@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
+
+#include "densities.hpp"
 
 namespace vitrine {
 
@@ -95,25 +97,22 @@ class Mixture {
   }
 
   void maximise(const std::vector<Vec>& samples) {
-    const std::size_t count = std::min<std::size_t>(parts_.size(), max_parts);
+    const std::size_t count = parts_.size();
     std::vector<Part> next(count);
     for (auto& p : next) p.covariance.setZero();
-    double share[max_parts];
-    for (const Vec& v : samples) {
-      double best = -std::numeric_limits<double>::infinity(), sum = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        const Vec d = v - parts_[k].mean;
-        share[k] = parts_[k].log_norm - 0.5 * d.dot(parts_[k].inverse * d);
-        best = std::max(best, share[k]);
-      }
-      for (std::size_t k = 0; k < count; ++k) sum += share[k] = std::exp(share[k] - best);
-      for (std::size_t k = 0; k < count; ++k) {
-        const double r = share[k] / sum;
-        if (r < 1e-6) continue;
-        next[k].weight += r;
-        next[k].mean += r * v;
-        next[k].covariance += r * v * v.transpose();
-      }
+    std::vector<float> rows, share(count * block);
+    for (std::size_t first = 0; first < samples.size(); first += block) {
+      const std::span<const Vec> some(samples.data() + first, std::min(block, samples.size() - first));
+      find_shares(some, rows, share);
+      for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          const double r = share[k * some.size() + i];
+          if (r < 1e-6) continue;
+          const Vec weighted = r * some[i];
+          next[k].weight += r;
+          next[k].mean += weighted;
+          next[k].covariance += weighted * some[i].transpose();
+        }
     }
     std::vector<Part> kept;
     for (std::size_t k = 0; k < count; ++k) {
@@ -128,6 +127,26 @@ class Mixture {
     if (!kept.empty()) parts_ = std::move(kept);
   }
 
+  /// Each part's share of each sample, part after part. `rows` is scratch.
+  void find_shares(std::span<const Vec> some, std::vector<float>& rows, std::vector<float>& share) const {
+    const std::size_t n = some.size();
+    // Numbers are taken from the first part's mean, so that floats lose nothing that matters.
+    const Vec origin = parts_[0].mean;
+    rows.resize(D * n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int j = 0; j < D; ++j) rows[j * n + i] = static_cast<float>(some[i][j] - origin[j]);
+    share.resize(parts_.size() * n);
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const Eigen::Matrix<float, D, D, Eigen::RowMajor> u =
+          Mat(parts_[k].inverse.llt().matrixU()).template cast<float>();
+      const Eigen::Matrix<float, D, 1> mean = (parts_[k].mean - origin).template cast<float>();
+      log_densities(rows, {u.data(), D * D}, {mean.data(), D}, static_cast<float>(parts_[k].log_norm),
+                    {share.data() + k * n, n});
+    }
+    to_shares(share, static_cast<int>(parts_.size()));
+  }
+
+  static constexpr std::size_t block = 256;
   std::vector<Part> parts_;
   Vec floor_ = Vec::Zero();
 };
