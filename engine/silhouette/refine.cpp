@@ -28,8 +28,8 @@ struct Band {
   }
 };
 
-/// Coverage of the picture's pixels in `box`, into `soft`. `band` is scratch.
-void cover_tile(const cv::Mat& rgb, const cv::Rect& box, const cv::Mat& rough, const cv::Mat& prior, const Sides& sides,
+/// Coverage of the picture's pixels in `box`, into `soft`. `band` is scratch. False when all of them lie on one side.
+bool cover_tile(const cv::Mat& rgb, const cv::Rect& box, const cv::Mat& rough, const cv::Mat& prior, const Sides& sides,
                 Band& band, cv::Mat& soft) {
   const float sx = static_cast<float>(rough.cols) / static_cast<float>(rgb.cols),
               sy = static_cast<float>(rough.rows) / static_cast<float>(rgb.rows);
@@ -58,7 +58,7 @@ void cover_tile(const cv::Mat& rgb, const cv::Rect& box, const cv::Mat& rough, c
       band.colours.push_back(colour[x]);
     }
   }
-  if (band.at.empty()) return;
+  if (band.at.empty()) return false;
   const cv::Mat lab = lab_from_rgb(cv::Mat(1, static_cast<int>(band.at.size()), CV_8UC3, band.colours.data()));
   const cv::Vec3f* seen = lab.ptr<cv::Vec3f>();
   for (std::size_t i = 0; i < band.at.size(); ++i) {
@@ -75,6 +75,7 @@ void cover_tile(const cv::Mat& rgb, const cv::Rect& box, const cv::Mat& rough, c
     const float trust = 0.75f * apart / (apart + half_trust);
     out = static_cast<std::uint8_t>(trust * 255 * std::clamp(along, 0.0f, 1.0f) + (1 - trust) * band.before[i] + 0.5f);
   }
+  return true;
 }
 
 }  // namespace
@@ -106,8 +107,8 @@ cv::Mat refine_contour(const cv::Mat& rgb, const cv::Mat& rough, const Sides& si
         continue;
       }
       const cv::Rect wide = cv::Rect(x - margin, y - margin, box.width + 2 * margin, box.height + 2 * margin) & whole;
-      cover_tile(rgb, wide, rough, prior, sides, band, soft);
-      cv::GaussianBlur(soft, soft, {}, sigma, sigma, cv::BORDER_REPLICATE);
+      if (cover_tile(rgb, wide, rough, prior, sides, band, soft))
+        cv::GaussianBlur(soft, soft, {}, sigma, sigma, cv::BORDER_REPLICATE);
       soft(box - wide.tl()).copyTo(out(box));
     }
   return out;
