@@ -91,7 +91,8 @@ std::optional<int> find_notch(const Outline& outline, const Vec2& end, const Vec
     if (way.y() <= 0 || distance > 0.5) continue;
     const double off = std::acos(std::clamp(way.normalized().dot(direction), -1.0, 1.0));
     if (off > 0.7) continue;
-    const double cost = 1.5 * off + distance;
+    // Ripples of a hem bend less than the corner that a cuff makes with it, and may lie closer to the edge's line.
+    const double cost = 0.7 * off + distance - 0.8 * std::min(std::abs(sample.turn_deg), 90.0) / 90;
     if (cost < best_cost) {
       best_cost = cost;
       best = s;
