@@ -11,7 +11,7 @@
 namespace vitrine {
 namespace {
 
-constexpr int rounds_alone = 8, rounds_known = 2;
+constexpr int rounds_alone = 6, rounds_known = 2;
 constexpr float unary_clip = 12;   ///< [nat] no single pixel outvotes its neighbourhood
 constexpr float sure_unary = 8;    ///< [nat]
 constexpr double smoothness = 14;  ///< [nat] cost of a boundary link without contrast
