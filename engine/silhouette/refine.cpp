@@ -72,8 +72,11 @@ bool cover_tile(const cv::Mat& rgb, const cv::Rect& box, const cv::Mat& rough, c
     const cv::Vec3f in = sides.in.at<cv::Vec3f>(r), ground = sides.out.at<cv::Vec3f>(r);
     const float apart = distance2(in, ground);
     const float along = apart > 1e-6f ? (seen[i] - ground).dot(in - ground) / apart : 0.5f;
-    const float trust = 0.75f * apart / (apart + half_trust);
-    out = static_cast<std::uint8_t>(trust * 255 * std::clamp(along, 0.0f, 1.0f) + (1 - trust) * band.before[i] + 0.5f);
+    const float share = std::clamp(along, 0.0f, 1.0f);
+    // What mixes neither side's colour (shade, a print, a thread) says less about the side.
+    const float strange = distance2(seen[i], ground + share * (in - ground));
+    const float trust = 0.75f * apart / (apart + half_trust + 2 * strange);
+    out = static_cast<std::uint8_t>(trust * 255 * share + (1 - trust) * band.before[i] + 0.5f);
   }
   return true;
 }
