@@ -66,7 +66,8 @@ std::vector<State> states_of(const Outline& outline, const Vec2& target, double 
   return states;
 }
 
-/// Cheapest choice of one state per feature that walks once around the outline in order.
+/// Cheapest choice of one state per feature that walks once around the outline in order: a dynamic programme for each
+/// start, cut short where what is left to come cannot make up for what has been spent.
 double choose(const Outline& outline, const std::vector<std::vector<State>>& states, const std::vector<Vec2>& targets,
               const std::vector<double>& radius, std::vector<int>& chosen) {
   const int count = static_cast<int>(states.size());
@@ -76,29 +77,43 @@ double choose(const Outline& outline, const std::vector<std::vector<State>>& sta
     const double scale = radius[i] + radius[j];
     return kShape * 4 * moved.squaredNorm() / (scale * scale);
   };
+  // What the features after each state cost at least: the same programme without the order and without the way home.
+  std::vector<std::vector<double>> ahead(count), cost(count);
+  std::vector<std::vector<int>> from(count), along(count);
+  for (int i = count - 1; i >= 0; --i) {
+    ahead[i].assign(states[i].size(), i == count - 1 ? 0 : kFar);
+    for (std::size_t a = 0; i < count - 1 && a < states[i].size(); ++a)
+      for (std::size_t b = 0; b < states[i + 1].size(); ++b)
+        ahead[i][a] = std::min(
+            ahead[i][a], shape(i, i + 1, states[i][a], states[i + 1][b]) + states[i + 1][b].cost + ahead[i + 1][b]);
+  }
   double best_total = kFar;
-  for (std::size_t first = 0; first < states[0].size(); ++first) {
+  const auto hopeless = [&](double spent, double least) { return spent + least > best_total + 1e-9; };
+  std::vector<int> starts(states[0].size());
+  for (std::size_t k = 0; k < starts.size(); ++k) starts[k] = static_cast<int>(k);
+  std::stable_sort(starts.begin(), starts.end(),
+                   [&](int a, int b) { return states[0][a].cost + ahead[0][a] < states[0][b].cost + ahead[0][b]; });
+  for (const int first : starts) {
+    if (hopeless(states[0][first].cost, ahead[0][first])) break;
     const int origin = states[0][first].sample;
-    const auto along = [&](const State& s) { return (s.sample - origin + n) % n; };
-    std::vector<std::vector<double>> cost(count);
-    std::vector<std::vector<int>> from(count);
-    cost[0].assign(states[0].size(), kFar);
-    cost[0][first] = states[0][first].cost;
-    for (int i = 1; i < count; ++i) {
+    for (int i = 0; i < count; ++i) {
       cost[i].assign(states[i].size(), kFar);
       from[i].assign(states[i].size(), -1);
-      for (std::size_t b = 0; b < states[i].size(); ++b) {
-        for (std::size_t a = 0; a < states[i - 1].size(); ++a) {
-          if (cost[i - 1][a] >= kFar || along(states[i][b]) <= along(states[i - 1][a])) continue;
-          const double c = cost[i - 1][a] + shape(i - 1, i, states[i - 1][a], states[i][b]);
-          if (c < cost[i][b]) {
-            cost[i][b] = c;
-            from[i][b] = static_cast<int>(a);
-          }
-        }
-        cost[i][b] += states[i][b].cost;
-      }
+      along[i].resize(states[i].size());
+      for (std::size_t b = 0; b < states[i].size(); ++b) along[i][b] = (states[i][b].sample - origin + n) % n;
     }
+    cost[0][first] = states[0][first].cost;
+    for (int i = 1; i < count; ++i)
+      for (std::size_t a = 0; a < states[i - 1].size(); ++a) {
+        if (cost[i - 1][a] >= kFar || hopeless(cost[i - 1][a], ahead[i - 1][a])) continue;
+        for (std::size_t b = 0; b < states[i].size(); ++b) {
+          if (along[i][b] <= along[i - 1][a]) continue;
+          const double c = cost[i - 1][a] + shape(i - 1, i, states[i - 1][a], states[i][b]) + states[i][b].cost;
+          if (c >= cost[i][b]) continue;
+          cost[i][b] = c;
+          from[i][b] = static_cast<int>(a);
+        }
+      }
     for (std::size_t b = 0; b < states[count - 1].size(); ++b) {
       if (cost[count - 1][b] >= kFar / 2) continue;
       const double total = cost[count - 1][b] + shape(count - 1, 0, states[count - 1][b], states[0][first]);
