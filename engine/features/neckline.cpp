@@ -6,6 +6,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "vitrine/colour.hpp"
+
 namespace vitrine::features_detail {
 namespace {
 
@@ -88,8 +90,8 @@ Crop crop_neck(const Image& rgb, const cv::Mat& mask, const NeckFrame& frame) {
     source = small;
   }
   cv::warpAffine(source, picture, map(), size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-  picture.convertTo(crop.lab, CV_32FC3, 1.0 / 255);
-  cv::cvtColor(crop.lab, crop.lab, cv::COLOR_RGB2Lab);
+  crop.lab.create(picture.size(), CV_32FC3);
+  lab_from_srgb(picture.ptr(), crop.lab.ptr<float>(), picture.total());
   cv::GaussianBlur(crop.lab, crop.lab, {}, 0.9);
   cv::erode(inside, crop.core, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}), {-1, -1}, 1, cv::BORDER_CONSTANT,
             0);

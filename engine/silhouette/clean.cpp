@@ -17,17 +17,19 @@ cv::Mat disc(int radius) {
 
 cv::Mat main_piece(const cv::Mat& mask, double* second) {
   cv::Mat labels, stats, centres;
-  const int n = cv::connectedComponentsWithStats(mask, labels, stats, centres, 4, CV_32S);
+  const cv::Rect box = cv::boundingRect(mask);
   if (second) *second = 0;
-  if (n < 2) return cv::Mat::zeros(mask.size(), CV_8U);
-  // The distance transform's peaks tell a compact piece from a frame of clutter of the same area.
+  cv::Mat out = cv::Mat::zeros(mask.size(), CV_8U);
+  if (box.empty()) return out;
+  const int n = cv::connectedComponentsWithStats(mask(box), labels, stats, centres, 4, CV_32S);
+  // A garment stands in the middle: a frame of clutter around it may have its area, never its weight.
   std::vector<double> weight(n, 0);
-  for (int y = 0; y < mask.rows; ++y) {
+  for (int y = 0; y < box.height; ++y) {
     const int* label = labels.ptr<int>(y);
-    const double v = 2.0 * y / mask.rows - 1;
-    for (int x = 0; x < mask.cols; ++x) {
+    const double v = 2.0 * (y + box.y) / mask.rows - 1;
+    for (int x = 0; x < box.width; ++x) {
       if (label[x] == 0) continue;
-      const double u = 2.0 * x / mask.cols - 1;
+      const double u = 2.0 * (x + box.x) / mask.cols - 1;
       weight[label[x]] += std::max(0.05, 1 - 0.5 * (u * u + v * v));
     }
   }
@@ -38,7 +40,8 @@ cv::Mat main_piece(const cv::Mat& mask, double* second) {
       if (k != best)
         *second = std::max(
             *second, static_cast<double>(stats.at<int>(k, cv::CC_STAT_AREA)) / stats.at<int>(best, cv::CC_STAT_AREA));
-  return labels == best;
+  out(box).setTo(255, labels == best);
+  return out;
 }
 
 cv::Mat without_specks(const cv::Mat& mask) {

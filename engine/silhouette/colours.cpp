@@ -19,7 +19,7 @@ constexpr int ground_parts = 10;
 constexpr int cloth_parts = 6;
 constexpr std::size_t max_samples = 2400;
 constexpr int first_rounds = 6, later_rounds = 2;
-constexpr float lift = 16;                  ///< [L] black's distance from the Lab origin of linear light
+constexpr float lift = 16;                  ///< [L] added, so that less light scales L, a and b alike
 constexpr double darkest_shade = 0.58;      ///< cube root of the least light that is left in a cast shadow
 constexpr double shade_penalty = 2.0;       ///< [nat] shade is rarer than lit ground
 constexpr double shade_depth_penalty = 12;  ///< [nat] per unit of 1 - t: deep shade is rarer than a soft one

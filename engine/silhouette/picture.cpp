@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "vitrine/colour.hpp"
+
 namespace vitrine {
 
 cv::Mat view(const Image& image) {
@@ -11,9 +13,8 @@ cv::Mat view(const Image& image) {
 }
 
 cv::Mat lab_from_rgb(const cv::Mat& rgb) {
-  cv::Mat real, lab;
-  rgb.convertTo(real, CV_32FC3, 1.0 / 255.0);
-  cv::cvtColor(real, lab, cv::COLOR_RGB2Lab);
+  cv::Mat lab(rgb.size(), CV_32FC3);
+  for (int y = 0; y < rgb.rows; ++y) lab_from_srgb(rgb.ptr(y), lab.ptr<float>(y), static_cast<std::size_t>(rgb.cols));
   return lab;
 }
 

@@ -92,7 +92,8 @@ cv::Mat refine_contour(const cv::Mat& rgb, const cv::Mat& rough, const Sides& si
   cv::erode(rough, near, kernel, {-1, -1}, 1, cv::BORDER_REPLICATE);
   cv::dilate(rough, far, kernel);
   const double scale = static_cast<double>(rgb.cols) / rough.cols, sigma = std::max(0.7, 0.5 * scale);
-  const int margin = static_cast<int>(std::ceil(3 * sigma));
+  const int margin = static_cast<int>(std::ceil(2 * sigma));
+  const cv::Size window(2 * margin + 1, 2 * margin + 1);
   cv::Mat out(rgb.size(), CV_8U);
   Band band;
   const cv::Rect whole({}, rgb.size());
@@ -111,7 +112,7 @@ cv::Mat refine_contour(const cv::Mat& rgb, const cv::Mat& rough, const Sides& si
       }
       const cv::Rect wide = cv::Rect(x - margin, y - margin, box.width + 2 * margin, box.height + 2 * margin) & whole;
       if (cover_tile(rgb, wide, rough, prior, sides, band, soft))
-        cv::GaussianBlur(soft, soft, {}, sigma, sigma, cv::BORDER_REPLICATE);
+        cv::GaussianBlur(soft, soft, window, sigma, sigma, cv::BORDER_REPLICATE);
       soft(box - wide.tl()).copyTo(out(box));
     }
   return out;
