@@ -5,9 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "magnets.hpp"
-#include "polish.hpp"
-#include "rules.hpp"
+#include "boundary.hpp"
+#include "lattice.hpp"
+#include "settle.hpp"
+#include "sheet.hpp"
 #include "triangulate.hpp"
 #include "wall.hpp"
 
@@ -63,7 +64,7 @@ Result<bool> check(std::span<const Vec2> outline, const MeshOptions& options) {
   if (has_repeated_points(outline)) return degenerate("a point is repeated");
   const double area = std::abs(polygon_area(outline));
   if (!(area > 1e-12 * box)) return degenerate("its area is zero");
-  const double needed = static_cast<double>(outline.size()) + ideal_interior_count(area, outline.size(), h);
+  const double needed = static_cast<double>(outline.size()) + 0.5 * std::max(0.0, area / (0.4330127 * h * h) - static_cast<double>(outline.size()) + 2);
   if (needed > options.max_nodes) return too_many(needed, options.max_nodes);
   // A thin sliver has little area but a wall of many magnets.
   if (length / h > 4.0 * options.max_nodes) return too_many(length / h, options.max_nodes);
@@ -71,74 +72,31 @@ Result<bool> check(std::span<const Vec2> outline, const MeshOptions& options) {
   return true;
 }
 
-/// One number for "better": flat triangles weigh most, then the angles, then even edges.
-double score(const MeshStats& s) {
-  return s.mean_min_angle_deg + 0.2 * s.min_angle_deg - 300 * s.flat_share - 40 * s.edge_cv;
-}
-
-/// The best mesh seen so far; every step is free to try, none can make the result worse.
-class Best {
- public:
-  bool offer(const PanelMesh& mesh) {
-    const double now = score(measure_mesh(mesh));
-    if (!mesh_.triangles.empty() && now <= score_) return false;
-    mesh_ = mesh;
-    score_ = now;
-    return true;
-  }
-  bool empty() const { return mesh_.triangles.empty(); }
-  const PanelMesh& mesh() const { return mesh_; }
-
- private:
-  PanelMesh mesh_;
-  double score_ = 0;
-};
-
-/// Lattice nodes, half settled: of the two lattices that are symmetric about the middle (a node on it, or a gap) the
-/// one that goes better with the outline's own nodes.
-PanelMesh start(std::span<const Vec2> outline, const Wall& wall, double h, int sweeps) {
-  Best best;
-  for (double shift : {0.0, 0.5}) {
-    PanelMesh mesh;
-    mesh.nodes.assign(outline.begin(), outline.end());
-    const std::vector<Vec2> magnets = insert_magnets(outline, wall, h, shift);
-    mesh.nodes.insert(mesh.nodes.end(), magnets.begin(), magnets.end());
-    settle(mesh.nodes, outline.size(), wall, h, sweeps);
-    mesh.triangles = triangulate(mesh.nodes, outline.size());
-    if (!mesh.triangles.empty()) best.offer(mesh);
-  }
-  return best.mesh();
-}
-
+double param(const char* n, double d) { const char* s = std::getenv(n); return s ? std::atof(s) : d; }
 }  // namespace
 
-Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options) {
+Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options,
+                             std::span<const std::vector<Vec2>> holes) {
   if (const auto ok = check(outline, options); !ok) return ok.error();
   const double h = options.edge_length;
-  const std::size_t n = outline.size();
-  const auto max_nodes = static_cast<std::size_t>(options.max_nodes);
-  const int portion = std::max(0, options.max_sweeps) / 4;
-  const Wall wall(outline, h);
-
-  constexpr int kRounds = 12, kPatience = 3, kPolishes = 4;
-  PanelMesh mesh = start(outline, wall, h, portion);
-  Best best;
-  int worse = 0;
-  for (int round = 0; round < kRounds && worse < kPatience && !mesh.triangles.empty(); ++round) {
-    worse = best.offer(mesh) ? 0 : worse + 1;
-    const int changes = apply_edge_ratio_rules(mesh.nodes, n, mesh.triangles, wall, h, max_nodes);
-    if (changes == 0 && round > 0) break;
-    settle(mesh.nodes, n, wall, h, portion);
-    mesh.triangles = triangulate(mesh.nodes, n);
-  }
-  if (best.empty()) return degenerate("its points are too close to its own segments to triangulate");
-
-  mesh = best.mesh();
-  for (int i = 0; i < kPolishes && polish(mesh.nodes, n, mesh.triangles, wall, h) > 0; ++i) {
-    mesh.triangles = triangulate(mesh.nodes, n);
-    if (mesh.triangles.empty() || !best.offer(mesh)) break;
-  }
-  return best.mesh();
+  const Boundary boundary(outline, holes);
+  const Wall wall(boundary, h);
+  std::vector<Vec2> nodes = boundary.nodes();
+  Lattice lattice = fit_lattice(boundary, h);
+  if (getenv("ANG")) { lattice.angle=param("ANG",0)*3.14159265358979/180; }
+  const std::vector<Vec2> inner = insert_nodes(boundary, wall, lattice, param("CLEAR",0.65) * h);
+  nodes.insert(nodes.end(), inner.begin(), inner.end());
+  const auto first = triangulate(nodes, boundary);
+  if (first.empty()) return degenerate("its points are too close to its own segments to triangulate");
+  Sheet sheet(std::move(nodes), boundary.size(), first);
+  const auto ring = ring_of_wall(sheet, (int)param("DEPTH",5));
+  int sw = settle(sheet, ring, h, (int)param("SWEEPS",30));
+  if(getenv("VERB")) fprintf(stderr,"angle %.1f sweeps %d\n", lattice.angle*180/3.14159265, sw);
+  PanelMesh mesh;
+  mesh.nodes = sheet.nodes();
+  mesh.triangles = triangulate(mesh.nodes, boundary);
+  if (mesh.triangles.empty()) return degenerate("its points are too close to its own segments to triangulate");
+  return mesh;
 }
 
 }  // namespace vitrine

@@ -23,20 +23,20 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, FaceInfoBas
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
-/// Faces reached from the infinite face without crossing a constraint are outside: info 1 outside, 0 inside.
-void mark_outside(Cdt& cdt) {
-  for (auto face : cdt.all_face_handles()) face->info() = 0;
-  std::vector<Cdt::Face_handle> stack{cdt.infinite_face()};
-  stack.back()->info() = 1;
-  while (!stack.empty()) {
-    const Cdt::Face_handle face = stack.back();
-    stack.pop_back();
-    for (int i = 0; i < 3; ++i) {
-      const Cdt::Face_handle next = face->neighbor(i);
-      if (next->info() == 1 || face->is_constrained(i)) continue;
-      next->info() = 1;
-      stack.push_back(next);
+/// Faces are inside when an odd number of loops lies between them and the infinite face: info 1 inside, 0 outside.
+void mark_inside(Cdt& cdt) {
+  for (auto face : cdt.all_face_handles()) face->info() = -1;
+  std::vector<Cdt::Face_handle> now{cdt.infinite_face()}, beyond;
+  for (int inside = 0; !now.empty(); inside = 1 - inside) {
+    while (!now.empty()) {
+      const Cdt::Face_handle face = now.back();
+      now.pop_back();
+      if (face->info() >= 0) continue;
+      face->info() = inside;
+      for (int i = 0; i < 3; ++i)
+        if (face->neighbor(i)->info() < 0) (face->is_constrained(i) ? beyond : now).push_back(face->neighbor(i));
     }
+    std::swap(now, beyond);
   }
 }
 
@@ -49,7 +49,8 @@ bool is_simple_polygon(std::span<const Vec2> outline) {
   return CGAL::is_simple_2(points.begin(), points.end(), Kernel());
 }
 
-std::vector<Triangle> triangulate(std::span<const Vec2> nodes, std::size_t outline_size) {
+std::vector<Triangle> triangulate(std::span<const Vec2> nodes, const Boundary& boundary) {
+  const std::size_t outline_size = boundary.size();
   std::vector<std::pair<Point, std::uint32_t>> points;
   points.reserve(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -63,12 +64,12 @@ std::vector<Triangle> triangulate(std::span<const Vec2> nodes, std::size_t outli
     std::vector<Cdt::Vertex_handle> handle(outline_size);
     for (auto v : cdt.finite_vertex_handles())
       if (v->info() < outline_size) handle[v->info()] = v;
-    for (std::size_t i = 0; i < outline_size; ++i) cdt.insert_constraint(handle[i], handle[(i + 1) % outline_size]);
+    for (std::size_t i = 0; i < outline_size; ++i) cdt.insert_constraint(handle[i], handle[boundary.next(i)]);
     if (cdt.number_of_vertices() != nodes.size()) return {};
-    mark_outside(cdt);
+    mark_inside(cdt);
     triangles.reserve(2 * nodes.size());
     for (auto face : cdt.finite_face_handles()) {
-      if (face->info() != 0) continue;
+      if (face->info() != 1) continue;
       Triangle t{face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
       triangles.push_back(t);

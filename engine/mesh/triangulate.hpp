@@ -3,16 +3,16 @@
 #include <span>
 #include <vector>
 
-#include "vitrine/model/geometry.hpp"
+#include "boundary.hpp"
 
 namespace vitrine::mesh_room {
 
 /// Whether the closed polygon neither touches nor crosses itself (exact predicates).
 bool is_simple_polygon(std::span<const Vec2> outline);
 
-/// Constrained Delaunay triangulation of the nodes, the first `outline_size` of which are the outline in order, without
-/// the triangles outside the outline. Counter-clockwise, the smallest index first, sorted: the result does not depend
+/// Constrained Delaunay triangulation of the nodes, the first of which are the boundary in order, without
+/// the triangles outside the cloth. Counter-clockwise, the smallest index first, sorted: the result does not depend
 /// on the order in which CGAL stores its faces. Empty when the nodes do not allow it (a node on a constraint).
-std::vector<Triangle> triangulate(std::span<const Vec2> nodes, std::size_t outline_size);
+std::vector<Triangle> triangulate(std::span<const Vec2> nodes, const Boundary& boundary);
 
 }  // namespace vitrine::mesh_room

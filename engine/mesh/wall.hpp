@@ -1,69 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <array>
-#include <span>
 #include <vector>
 
-#include "vitrine/model/geometry.hpp"
+#include "boundary.hpp"
+#include "cell_grid.hpp"
 
 namespace vitrine::mesh_room {
 
-/// Points sorted into square cells, so that the neighbours of a place are found without looking at all points.
-/// The cells grow when the box would need too many of them (long diagonal strips).
-class CellGrid {
- public:
-  /// The box [low, high] is fixed; points outside it are put into the border cells.
-  CellGrid(const Vec2& low, const Vec2& high, double cell);
-  /// Counting sort of the points; the order inside a cell is the order of the points.
-  void fill(std::span<const Vec2> points);
-  /// Calls visit(index) for every point in the cells that touch the square of half width `reach` around p.
-  template <class Visit>
-  void near(const Vec2& p, double reach, Visit&& visit) const {
-    const int x0 = column(p.x() - reach), x1 = column(p.x() + reach);
-    const int y0 = row(p.y() - reach), y1 = row(p.y() + reach);
-    for (int y = y0; y <= y1; ++y) {
-      const std::size_t line = static_cast<std::size_t>(y) * columns_;
-      for (int i = start_[line + x0]; i < start_[line + x1 + 1]; ++i) visit(item_[i]);
-    }
-  }
-
- private:
-  int column(double x) const { return clamp((x - low_.x()) / cell_, columns_); }
-  int row(double y) const { return clamp((y - low_.y()) / cell_, rows_); }
-  static int clamp(double v, int n) { return v <= 0 ? 0 : (v >= n ? n - 1 : static_cast<int>(v)); }
-
-  Vec2 low_;
-  double cell_;
-  int columns_, rows_;
-  std::vector<int> start_, item_;
-};
-
-/// The magnetic wall (paper III.B): the outline's segments, cut into pieces no longer than the target edge.
+/// The magnetic wall (paper III.B): the segments of outline and holes, cut into pieces no longer than about the target
+/// edge so that the ones near a place are found in a cell grid.
 class Wall {
  public:
-  Wall(std::span<const Vec2> outline, double edge_length);
-  /// The outline's nodes first, then the interpolated magnets that keep long segments tight; the latter are never
-  /// triangulated.
-  const std::vector<Vec2>& magnets() const { return magnets_; }
-  /// Whether p lies on the inner side of magnet i: what is across a slit (a sleeve beside the body) is not felt.
-  bool faces(int i, const Vec2& p) const {
-    const Vec2 d = p - magnets_[i];
-    return d.dot(inward_[i][0]) > 0 || d.dot(inward_[i][1]) > 0;
-  }
-  /// Distance to the nearest piece of wall and the unit vector away from it; `limit` when none is nearer.
-  double distance(const Vec2& p, double limit, Vec2* away = nullptr) const;
-  const Vec2& low() const { return low_; }
-  const Vec2& high() const { return high_; }
+  Wall(const Boundary& boundary, double edge_length);
+  /// Distance to the nearest piece of wall; `limit` when none is nearer.
+  double distance(const Vec2& p, double limit) const;
 
  private:
   struct Piece {
-    Vec2 a, b;
+    Vec2 a, d;
+    double inverse_square;  ///< 1 / |d|^2
   };
-  Vec2 low_, high_;
   double longest_ = 0;
   std::vector<Piece> pieces_;
-  std::vector<Vec2> magnets_, middles_;
-  std::vector<std::array<Vec2, 2>> inward_;  ///< normals of the segments before and after each magnet
   CellGrid grid_;
 };
 
