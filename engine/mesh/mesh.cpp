@@ -6,9 +6,11 @@
 #include <string>
 
 #include "boundary.hpp"
+#include "insert.hpp"
 #include "lattice.hpp"
 #include "settle.hpp"
 #include "sheet.hpp"
+#include "sizing.hpp"
 #include "triangulate.hpp"
 #include "wall.hpp"
 
@@ -81,19 +83,24 @@ Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& o
   const double h = options.edge_length;
   const Boundary boundary(outline, holes);
   const Wall wall(boundary, h);
+  const Sizing sizing(boundary, h);
+  const double depth = param("DEPTH", 4);
+  const Lattice lattice = fit_lattice(boundary, h);
+  const Inserted inserted = insert_nodes(boundary, wall, sizing, lattice, 0.9 * depth + 2, options.max_nodes);
   std::vector<Vec2> nodes = boundary.nodes();
-  Lattice lattice = fit_lattice(boundary, h);
-  if (getenv("ANG")) { lattice.angle=param("ANG",0)*3.14159265358979/180; }
-  const std::vector<Vec2> inner = insert_nodes(boundary, wall, lattice, param("CLEAR",0.65) * h);
-  nodes.insert(nodes.end(), inner.begin(), inner.end());
+  nodes.insert(nodes.end(), inserted.ring.begin(), inserted.ring.end());
   const auto first = triangulate(nodes, boundary);
   if (first.empty()) return degenerate("its points are too close to its own segments to triangulate");
-  Sheet sheet(std::move(nodes), boundary.size(), first);
-  const auto ring = ring_of_wall(sheet, (int)param("DEPTH",5));
-  int sw = settle(sheet, ring, h, (int)param("SWEEPS",30));
-  if(getenv("VERB")) fprintf(stderr,"angle %.1f sweeps %d\n", lattice.angle*180/3.14159265, sw);
+  std::vector<double> sizes(nodes.size(), h);
+  if (!sizing.uniform()) for (std::size_t i = 0; i < nodes.size(); ++i) sizes[i] = sizing.at(nodes[i]);
+  Sheet sheet(std::move(nodes), std::move(sizes), boundary.size(), first);
+  const auto ring = ring_of_wall(sheet, (int)depth);
+  int sw = settle(sheet, ring, (int)param("SWEEPS",12));
+  polish(sheet, ring, (int)param("POLISH",6));
+  if(getenv("VERB")) fprintf(stderr,"axis %.3f %.3f sweeps %d ring %zu deep %zu of %zu\n", lattice.axis.x(), lattice.axis.y(), sw,inserted.ring.size(), inserted.deep.size(), ring.size());
   PanelMesh mesh;
   mesh.nodes = sheet.nodes();
+  mesh.nodes.insert(mesh.nodes.end(), inserted.deep.begin(), inserted.deep.end());
   mesh.triangles = triangulate(mesh.nodes, boundary);
   if (mesh.triangles.empty()) return degenerate("its points are too close to its own segments to triangulate");
   return mesh;

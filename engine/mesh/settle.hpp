@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "sheet.hpp"
@@ -10,6 +11,9 @@ namespace vitrine::mesh_room {
 std::vector<std::uint32_t> ring_of_wall(const Sheet& sheet, int depth);
 
 /// Lets the nodes repel each other until they rest; flips keep the sheet Delaunay. Returns the sweeps used.
-int settle(Sheet& sheet, const std::vector<std::uint32_t>& ring, double edge_length, int sweeps);
+int settle(Sheet& sheet, const std::vector<std::uint32_t>& ring, int sweeps);
+
+/// Moves the nodes of badly shaped triangles to where the sum of what is wrong around them is least.
+void polish(Sheet& sheet, const std::vector<std::uint32_t>& ring, int rounds);
 
 }  // namespace vitrine::mesh_room

@@ -18,8 +18,9 @@ double cross(const Vec2& a, const Vec2& b) {
 
 }  // namespace
 
-Sheet::Sheet(std::vector<Vec2> nodes, std::size_t wall_size, const std::vector<Triangle>& triangles)
-    : nodes_(std::move(nodes)), wall_(wall_size) {
+Sheet::Sheet(std::vector<Vec2> nodes, std::vector<double> sizes, std::size_t wall_size,
+             const std::vector<Triangle>& triangles)
+    : nodes_(std::move(nodes)), sizes_(std::move(sizes)), wall_(wall_size) {
   cells_.reserve(triangles.size() + triangles.size() / 8);
   for (const Triangle& t : triangles) cells_.push_back({t, {kNone, kNone, kNone}});
   at_.assign(nodes_.size(), kNone);
@@ -111,23 +112,49 @@ void Sheet::flip(std::int32_t c, int k) {
   hold(d);
 }
 
+/// Flips one edge of the cell that is not Delaunay, if there is one, and notes both cells to be looked at again.
+bool Sheet::flip_illegal(std::int32_t c) {
+  for (int k = 0; k < 3; ++k) {
+    if (is_delaunay(c, k) || !can_flip(c, k)) continue;
+    stack_.push_back(c);
+    stack_.push_back(cells_[c].next[k]);
+    flip(c, k);
+    return true;
+  }
+  return false;
+}
+
+int Sheet::legalise(const std::vector<std::int32_t>& cells) {
+  int flips = 0;
+  // The bound only matters where rounding has the last word; Delaunay flips come to an end by themselves.
+  std::size_t budget = 20 * cells.size() + 100;
+  for (const std::int32_t c : cells) {
+    if (!cell_alive(c)) continue;
+    for (int k = 0; k < 3; ++k) {
+      // Of two neighbours the one with the smaller index looks at their edge, once for both.
+      if (cells_[c].next[k] < c || is_delaunay(c, k) || !can_flip(c, k)) continue;
+      stack_.assign({c, cells_[c].next[k]});
+      flip(c, k);
+      ++flips;
+      while (!stack_.empty()) {
+        if (budget-- == 0) return flips;
+        const std::int32_t d = stack_.back();
+        stack_.pop_back();
+        flips += flip_illegal(d);
+      }
+    }
+  }
+  return flips;
+}
+
 int Sheet::legalise(std::uint32_t i) {
   stack_.clear();
   cells_at(i, [&](std::int32_t c) { stack_.push_back(c); });
   int flips = 0;
-  // The bound only matters where rounding has the last word; Delaunay flips come to an end by themselves.
-  for (int budget = 400; !stack_.empty() && budget > 0; --budget) {
+  for (int budget = 200; !stack_.empty() && budget > 0; --budget) {
     const std::int32_t c = stack_.back();
     stack_.pop_back();
-    for (int k = 0; k < 3; ++k) {
-      if (is_delaunay(c, k) || !can_flip(c, k)) continue;
-      const std::int32_t d = cells_[c].next[k];
-      flip(c, k);
-      ++flips;
-      stack_.push_back(c);
-      stack_.push_back(d);
-      break;
-    }
+    flips += flip_illegal(c);
   }
   return flips;
 }
@@ -142,6 +169,7 @@ std::int32_t Sheet::split(std::int32_t c, int k) {
   const std::int32_t a_far = two.next[(j + 1) % 3], far_b = two.next[(j + 2) % 3];
   const auto m = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(0.5 * (nodes_[a] + nodes_[b]));
+  sizes_.push_back(0.5 * (sizes_[a] + sizes_[b]));
   const auto e = static_cast<std::int32_t>(cells_.size()), f = e + 1;
   cells_[c] = {{near, a, m}, {f, e, near_a}};
   cells_[d] = {{far, b, m}, {e, f, far_b}};

@@ -18,7 +18,9 @@ class Sheet {
     std::array<std::int32_t, 3> next;  ///< neighbour across the edge opposite to node k, kNone at the wall
   };
 
-  Sheet(std::vector<Vec2> nodes, std::size_t wall_size, const std::vector<Triangle>& triangles);
+  /// `sizes` are the edge lengths asked for at the nodes, the first wall_size of which are the boundary's.
+  Sheet(std::vector<Vec2> nodes, std::vector<double> sizes, std::size_t wall_size,
+        const std::vector<Triangle>& triangles);
 
   std::size_t wall_size() const { return wall_; }
   std::size_t node_slots() const { return nodes_.size(); }
@@ -26,6 +28,8 @@ class Sheet {
   bool alive(std::uint32_t i) const { return at_[i] != kNone; }
   const Vec2& at(std::uint32_t i) const { return nodes_[i]; }
   void move(std::uint32_t i, const Vec2& p) { nodes_[i] = p; }
+  double size(std::uint32_t i) const { return sizes_[i]; }
+  void set_size(std::uint32_t i, double size) { sizes_[i] = size; }
   const std::vector<Cell>& cells() const { return cells_; }
   bool cell_alive(std::size_t c) const { return cells_[c].node[0] != cells_[c].node[1]; }
   int valence(std::uint32_t i) const;
@@ -55,8 +59,9 @@ class Sheet {
     } while (c != first && c != kNone);
   }
 
-  /// Flips edges at the node until every one of them is Delaunay, and those that the flips touched; returns the flips.
-  int legalise(std::uint32_t i);
+  /// Flips edges of the cells until every one of them is Delaunay, and those that the flips touched; returns the flips.
+  int legalise(const std::vector<std::int32_t>& cells);
+  int legalise(std::uint32_t node);
   /// A node in the middle of the edge opposite to corner k of the cell; kNone at the wall or when a half would be flat.
   std::int32_t split(std::int32_t cell, int k);
   /// Takes an interior node out and closes the gap; false (and nothing removed) where that cannot be done.
@@ -76,8 +81,10 @@ class Sheet {
   bool can_flip(std::int32_t cell, int k) const;
   bool is_delaunay(std::int32_t cell, int k) const;
   void flip(std::int32_t cell, int k);
+  bool flip_illegal(std::int32_t cell);
 
   std::vector<Vec2> nodes_;
+  std::vector<double> sizes_;
   std::size_t wall_;
   std::vector<Cell> cells_;
   std::vector<std::int32_t> at_;  ///< a cell at each node; at a wall node the first one counter-clockwise

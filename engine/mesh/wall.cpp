@@ -7,13 +7,13 @@
 namespace vitrine::mesh_room {
 
 Wall::Wall(const Boundary& boundary, double edge_length)
-    : grid_(boundary.low(), boundary.high(), 1.5 * edge_length) {
+    : boundary_(boundary), grid_(boundary.low(), boundary.high(), 1.5 * edge_length) {
   std::vector<Vec2> middles;
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     const int parts = std::max(1, static_cast<int>(std::ceil(boundary.segment(i) / (1.3 * edge_length))));
     const Vec2 d = (boundary[boundary.next(i)] - boundary[i]) / parts;
     for (int k = 0; k < parts; ++k) {
-      pieces_.push_back({boundary[i] + k * d, d, 1 / d.squaredNorm()});
+      pieces_.push_back({boundary[i] + k * d, d, 1 / d.squaredNorm(), static_cast<int>(i)});
       middles.push_back(pieces_.back().a + 0.5 * d);
     }
     longest_ = std::max(longest_, d.norm());
@@ -21,15 +21,29 @@ Wall::Wall(const Boundary& boundary, double edge_length)
   grid_.fill(middles);
 }
 
-double Wall::distance(const Vec2& p, double limit) const {
-  double best = limit * limit;
+Wall::Nearest Wall::nearest(const Vec2& p, double limit) const {
+  double best = limit * limit, at = 0;
+  int found = -1;
   grid_.near(p, limit + 0.5 * longest_, [&](int i) {
     const Piece& piece = pieces_[i];
     const Vec2 q = p - piece.a;
     const double t = std::clamp(q.dot(piece.d) * piece.inverse_square, 0.0, 1.0);
-    best = std::min(best, (q - t * piece.d).squaredNorm());
+    const double squared = (q - t * piece.d).squaredNorm();
+    if (squared < best) {
+      best = squared;
+      found = i;
+      at = t;
+    }
   });
-  return std::sqrt(best);
+  if (found < 0) return {limit};
+  const Piece& piece = pieces_[found];
+  // Where two segments meet, the sum of their normals tells the sides apart.
+  const std::size_t s = piece.segment;
+  Vec2 normal = boundary_.inward(s);
+  Vec2 foot = piece.a + at * piece.d;
+  if (at == 0 && foot == boundary_[s]) normal += boundary_.inward(boundary_.previous(s));
+  if (at == 1) normal += boundary_.inward(ends_segment(found) ? boundary_.next(s) : s);
+  return {std::sqrt(best), piece.d.norm(), (p - foot).dot(normal) > 0};
 }
 
 }  // namespace vitrine::mesh_room

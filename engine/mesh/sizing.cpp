@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sizing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrine::mesh_room {
+namespace {
+
+constexpr double kNarrow = 4;     ///< [-] a part of fewer edges across is graded
+constexpr double kFinest = 0.5;   ///< [-] of the target, in narrow parts
+constexpr double kShort = 0.6;    ///< [-] shorter segments, in targets, ask for finer edges around them
+constexpr double kFinestAtSegments = 1.0 / 64;
+constexpr double kGrowth = 0.4;   ///< [m/m] of the edge length with the distance from a spot
+constexpr double kFacing = 0.87;  ///< [-] cosine: walls within 30 degrees of parallel bound a part, others a corner
+
+}  // namespace
+
+Sizing::Sizing(const Boundary& boundary, double edge_length)
+    : target_(edge_length), grid_(boundary.low(), boundary.high(), 2 * edge_length) {
+  add_narrow_parts(boundary);
+  add_short_segments(boundary);
+  std::vector<Vec2> centres;
+  for (const Spot& s : spots_) {
+    centres.push_back(s.centre);
+    reach_ = std::max(reach_, radius(s, target_));
+  }
+  grid_.fill(centres);
+}
+
+/// The width at each segment: how far straight inwards from its middle the next wall is.
+void Sizing::add_narrow_parts(const Boundary& boundary) {
+  const double limit = kNarrow * target_ * (1 - 1e-9);
+  std::vector<Vec2> middles(boundary.size());
+  double longest = 0;
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    middles[i] = 0.5 * (boundary[i] + boundary[boundary.next(i)]);
+    longest = std::max(longest, boundary.segment(i));
+  }
+  // Very long segments are few; looking as far as the longest would make every query one over everything.
+  const double half = std::min(0.5 * longest, 4 * target_);
+  std::vector<int> far_reaching;
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+    if (boundary.segment(i) > 2 * half) far_reaching.push_back(static_cast<int>(i));
+  grid_.fill(middles);
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const Vec2 from = middles[i], ray = boundary.inward(i);
+    double width = limit;
+    const auto meet = [&](int j) {
+      if (boundary.inward(j).dot(ray) > -kFacing) return;
+      const Vec2 a = boundary[j] - from, d = boundary[boundary.next(j)] - boundary[j];
+      const double slope = ray.x() * d.y() - ray.y() * d.x();
+      if (slope == 0) return;
+      const double along = (a.x() * d.y() - a.y() * d.x()) / slope, part = (a.x() * ray.y() - a.y() * ray.x()) / slope;
+      if (along > 0 && along < width && part >= 0 && part <= 1) width = along;
+    };
+    grid_.near(from + 0.5 * limit * ray, 0.5 * limit + half, meet);
+    for (const int j : far_reaching) meet(j);
+    if (width < limit)
+      spots_.push_back({from + 0.5 * width * ray, 0.5 * width, std::max(width / kNarrow, kFinest * target_)});
+  }
+}
+
+void Sizing::add_short_segments(const Boundary& boundary) {
+  const double finest = kFinestAtSegments * target_;
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    if (boundary.segment(i) > kShort * target_) continue;
+    const Vec2 centre = 0.5 * (boundary[i] + boundary[boundary.next(i)]);
+    // An outline of a million points needs no more spots than its finest edges.
+    if (!spots_.empty() && spots_.back().size == finest && (spots_.back().centre - centre).norm() < finest) continue;
+    spots_.push_back({centre, 0, std::max(boundary.segment(i), finest)});
+  }
+}
+
+double Sizing::radius(const Spot& spot, double size) {
+  return spot.radius + std::max(0.0, size - spot.size) / kGrowth;
+}
+
+double Sizing::at(const Vec2& p) const {
+  double size = target_;
+  if (uniform()) return size;
+  grid_.near(p, reach_, [&](int k) {
+    const Spot& s = spots_[k];
+    if (s.size >= size) return;
+    size = std::min(size, s.size + kGrowth * std::max(0.0, (p - s.centre).norm() - s.radius));
+  });
+  return size;
+}
+
+}  // namespace vitrine::mesh_room
