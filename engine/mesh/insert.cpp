@@ -10,6 +10,7 @@ namespace vitrine::mesh_room {
 namespace {
 
 constexpr double kClearance = 0.5;  ///< [-] nearest to the wall, in edges of the place or of the wall
+constexpr double kRim = 2;          ///< [-] width of the rim in target edges; neighbours of the ring are nearer
 constexpr int kLevels = 6;          ///< finest lattice: 1/64 of the target
 
 /// The sites of a lattice that lie on the cloth, row by row.
@@ -59,8 +60,8 @@ void sites_around(const Lattice& lattice, const Vec2& centre, double radius, std
 }
 
 /// Sites of the lattice of half the step, and so on, where the edges asked for are nearer to that step.
-void insert_finer(const Wall& wall, const Sizing& sizing, Lattice lattice, std::vector<Vec2>& nodes,
-                  std::size_t max_nodes) {
+void insert_finer(const Ground& ground, Lattice lattice, std::vector<Vec2>& nodes, std::size_t max_nodes) {
+  const Sizing& sizing = ground.sizing;
   const Vec2 x_axis = lattice.axis, y_axis(-x_axis.y(), x_axis.x());
   for (int level = 1; level <= kLevels; ++level) {
     const double limit = std::numbers::sqrt2 / 2 * lattice.step;
@@ -79,27 +80,31 @@ void insert_finer(const Wall& wall, const Sizing& sizing, Lattice lattice, std::
                      static_cast<double>(k) * height * y_axis;
       const double size = sizing.at(p);
       if (size > limit) continue;
-      const Wall::Nearest nearest = wall.nearest(p, 4 * sizing.target());
-      if (nearest.inside && nearest.distance >= kClearance * std::max(size, std::min(sizing.target(), nearest.edge)))
-        nodes.push_back(p);
+      if (ground.is_clear(p, size)) nodes.push_back(p);
     }
   }
 }
 
 }  // namespace
 
-Inserted insert_nodes(const Boundary& boundary, const Wall& wall, const Sizing& sizing, const Lattice& lattice,
-                      double depth, std::size_t max_nodes) {
+bool Ground::is_clear(const Vec2& p, double size) const {
+  const double h = sizing.target();
+  const Wall::Nearest nearest = wall.nearest(p, 4 * h);
+  return nearest.inside && nearest.distance >= kClearance * std::max(size, std::min(h, nearest.edge));
+}
+
+Inserted insert_nodes(const Ground& ground, const Lattice& lattice, double depth, std::size_t max_nodes) {
   Inserted made;
   const double h = lattice.step;
-  sites_inside(boundary, lattice, [&](const Vec2& p) {
-    if (made.ring.size() + made.deep.size() > max_nodes) return;
-    const Wall::Nearest nearest = wall.nearest(p, depth * h);
-    const double size = sizing.at(p);
+  sites_inside(ground.boundary, lattice, [&](const Vec2& p) {
+    if (made.ring.size() + made.rim.size() + made.deep.size() > max_nodes) return;
+    const Wall::Nearest nearest = ground.wall.nearest(p, (depth + kRim) * h);
+    const double size = ground.sizing.at(p);
     if (nearest.distance < kClearance * std::max(size, std::min(h, nearest.edge))) return;
-    (nearest.distance < depth * h || size < h ? made.ring : made.deep).push_back(p);
+    const double gap = nearest.distance / h;
+    (gap < depth || size < h ? made.ring : (gap < depth + kRim ? made.rim : made.deep)).push_back(p);
   });
-  if (!sizing.uniform()) insert_finer(wall, sizing, lattice, made.ring, max_nodes);
+  if (!ground.sizing.uniform()) insert_finer(ground, lattice, made.ring, max_nodes);
   return made;
 }
 

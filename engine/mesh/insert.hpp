@@ -9,16 +9,24 @@
 
 namespace vitrine::mesh_room {
 
-/// Interior nodes before they settle: `ring` those near the wall or in graded places, which will move; `deep` the rest,
-/// which lie where the repulsion's ground state has them already.
-struct Inserted {
-  std::vector<Vec2> ring, deep;
+/// What nodes are put on.
+struct Ground {
+  const Boundary& boundary;
+  const Wall& wall;
+  const Sizing& sizing;
+  /// Whether a node at p, where edges of `size` are asked for, is far enough from the wall to leave no flat triangle.
+  bool is_clear(const Vec2& p, double size) const;
 };
 
-/// Nodes on the lattice's sites, on lattices of half its step and so on where finer edges are asked for. Sites within
-/// `depth` edges of the wall go to the ring. Stops soon after max_nodes;
-/// the caller refuses such a mesh.
-Inserted insert_nodes(const Boundary& boundary, const Wall& wall, const Sizing& sizing, const Lattice& lattice,
-                      double depth, std::size_t max_nodes);
+/// Interior nodes before they settle.
+struct Inserted {
+  std::vector<Vec2> ring;  ///< near the wall or in graded places: these will move
+  std::vector<Vec2> rim;   ///< the neighbours of the ring; they stay
+  std::vector<Vec2> deep;  ///< the rest, which lie where the repulsion's ground state has them already
+};
+
+/// Nodes on the lattice's sites, on lattices of half its step and so on where finer edges are asked for. Stops soon
+/// after max_nodes; the caller refuses such a mesh. `depth` of the ring in target edges.
+Inserted insert_nodes(const Ground& ground, const Lattice& lattice, double depth, std::size_t max_nodes);
 
 }  // namespace vitrine::mesh_room

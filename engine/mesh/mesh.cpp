@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "boundary.hpp"
 #include "insert.hpp"
 #include "lattice.hpp"
+#include "rules.hpp"
 #include "settle.hpp"
 #include "sheet.hpp"
 #include "sizing.hpp"
@@ -84,18 +86,29 @@ Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& o
   const Boundary boundary(outline, holes);
   const Wall wall(boundary, h);
   const Sizing sizing(boundary, h);
-  const double depth = param("DEPTH", 4);
+  const Ground ground{boundary, wall, sizing};
   const Lattice lattice = fit_lattice(boundary, h);
-  const Inserted inserted = insert_nodes(boundary, wall, sizing, lattice, 0.9 * depth + 2, options.max_nodes);
+  const Inserted inserted = insert_nodes(ground, lattice, param("DEPTH", 3.7), options.max_nodes);
+  const std::size_t total = boundary.size() + inserted.ring.size() + inserted.rim.size() + inserted.deep.size();
+  if (total > static_cast<std::size_t>(options.max_nodes)) return too_many(static_cast<double>(total), options.max_nodes);
   std::vector<Vec2> nodes = boundary.nodes();
   nodes.insert(nodes.end(), inserted.ring.begin(), inserted.ring.end());
+  std::vector<std::uint32_t> ring(inserted.ring.size());
+  std::iota(ring.begin(), ring.end(), static_cast<std::uint32_t>(boundary.size()));
+  nodes.insert(nodes.end(), inserted.rim.begin(), inserted.rim.end());
   const auto first = triangulate(nodes, boundary);
   if (first.empty()) return degenerate("its points are too close to its own segments to triangulate");
   std::vector<double> sizes(nodes.size(), h);
   if (!sizing.uniform()) for (std::size_t i = 0; i < nodes.size(); ++i) sizes[i] = sizing.at(nodes[i]);
   Sheet sheet(std::move(nodes), std::move(sizes), boundary.size(), first);
-  const auto ring = ring_of_wall(sheet, (int)depth);
   int sw = settle(sheet, ring, (int)param("SWEEPS",12));
+  for (int r = 0; r < (int)param("ROUNDS", 4); ++r) {
+    int ch = apply_edge_ratio_rules(sheet, ground, ring);
+  if(getenv("VERB")) fprintf(stderr,"round %d changes %d\n", r, ch);
+    if (ch == 0) break;
+    if (!sizing.uniform()) for (auto i : ring) sheet.set_size(i, sizing.at(sheet.at(i)));
+    settle(sheet, ring, (int)param("SW2",6));
+  }
   polish(sheet, ring, (int)param("POLISH",6));
   if(getenv("VERB")) fprintf(stderr,"axis %.3f %.3f sweeps %d ring %zu deep %zu of %zu\n", lattice.axis.x(), lattice.axis.y(), sw,inserted.ring.size(), inserted.deep.size(), ring.size());
   PanelMesh mesh;

@@ -10,30 +10,6 @@ namespace {
 double param(const char* n, double d) { const char* s = std::getenv(n); return s ? std::atof(s) : d; }
 }
 
-std::vector<std::uint32_t> ring_of_wall(const Sheet& sheet, int depth) {
-  std::vector<int> level(sheet.node_slots(), -1);
-  std::vector<std::uint32_t> front, ring;
-  for (std::uint32_t i = 0; i < sheet.wall_size(); ++i) {
-    level[i] = 0;
-    front.push_back(i);
-  }
-  for (int d = 1; d <= depth; ++d) {
-    std::vector<std::uint32_t> next;
-    for (const std::uint32_t i : front)
-      sheet.star(i, [&](std::uint32_t b, std::uint32_t c) {
-        for (const std::uint32_t j : {b, c})
-          if (level[j] < 0) {
-            level[j] = d;
-            next.push_back(j);
-          }
-      });
-    ring.insert(ring.end(), next.begin(), next.end());
-    front = std::move(next);
-  }
-  std::sort(ring.begin(), ring.end());
-  return ring;
-}
-
 namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }

@@ -7,9 +7,6 @@
 
 namespace vitrine::mesh_room {
 
-/// Interior nodes within `depth` edges of the wall, in rising order.
-std::vector<std::uint32_t> ring_of_wall(const Sheet& sheet, int depth);
-
 /// Lets the nodes repel each other until they rest; flips keep the sheet Delaunay. Returns the sweeps used.
 int settle(Sheet& sheet, const std::vector<std::uint32_t>& ring, int sweeps);
 

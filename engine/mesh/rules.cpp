@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rules.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace vitrine::mesh_room {
+namespace {
+
+constexpr double kFlat = 1.3, kMiddling = 1.6;  ///< [-] the paper's edge-ratio bounds
+/// Halving an edge must not go below the target: the halves of a longer one are nearer to it than the whole.
+constexpr double kLong = 1.42;
+constexpr double kClose = 0.62;  ///< [-] shorter interior edges, in target edges, are merged
+
+struct Shape {
+  std::array<double, 3> length;  ///< of the edge opposite to corner k, in target edges
+  int longest;
+  double ratio;
+};
+
+Shape shape_of(const Sheet& sheet, const Triangle& t) {
+  Shape s;
+  const double target = (sheet.size(t[0]) + sheet.size(t[1]) + sheet.size(t[2])) / 3;
+  for (int k = 0; k < 3; ++k) s.length[k] = (sheet.at(t[(k + 1) % 3]) - sheet.at(t[(k + 2) % 3])).norm() / target;
+  s.longest = static_cast<int>(std::max_element(s.length.begin(), s.length.end()) - s.length.begin());
+  s.ratio = (s.length[0] + s.length[1] + s.length[2] - s.length[s.longest]) / s.length[s.longest];
+  return s;
+}
+
+/// The changes of one round, and which nodes they concern.
+class Round {
+ public:
+  Round(Sheet& sheet, const Ground& ground, std::vector<std::uint32_t>& ring)
+      : sheet_(sheet), ground_(ground), ring_(ring), touched_(sheet.node_slots(), 0) {}
+
+  bool untouched(const Triangle& t) const { return !touched_[t[0]] && !touched_[t[1]] && !touched_[t[2]]; }
+  bool touched(std::uint32_t i) const { return touched_[i]; }
+  void touch(std::uint32_t i) {
+    sheet_.star(i, [&](std::uint32_t b, std::uint32_t c) { touched_[b] = touched_[c] = 1; });
+    touched_[i] = 1;
+  }
+  bool remove(std::uint32_t i) {
+    if (!sheet_.interior(i)) return false;
+    touch(i);
+    return sheet_.remove(i);
+  }
+  /// A node in the middle of the edge opposite to corner k, unless it would be too near to the wall.
+  bool split(std::int32_t cell, int k) {
+    const Triangle t = sheet_.cells()[cell].node;
+    const std::uint32_t a = t[(k + 1) % 3], b = t[(k + 2) % 3];
+    if (sheet_.cells()[cell].next[k] == Sheet::kNone) return false;
+    if (!ground_.is_clear(0.5 * (sheet_.at(a) + sheet_.at(b)), 0.5 * (sheet_.size(a) + sheet_.size(b)))) return false;
+    for (const std::uint32_t i : t) touch(i);
+    const auto made = static_cast<std::uint32_t>(sheet_.split(cell, k));
+    touched_.push_back(1);
+    ring_.push_back(made);
+    sheet_.legalise(made);
+    return true;
+  }
+  /// The rules for one triangle.
+  int repair(std::int32_t cell) {
+    const Triangle t = sheet_.cells()[cell].node;
+    const Shape s = shape_of(sheet_, t);
+    const bool is_long = s.length[s.longest] > kLong;
+    if (s.ratio < kFlat) {
+      const std::uint32_t opposite = t[s.longest];
+      // The node goes first, or its new neighbour would stand in its way; nothing is lost where only that succeeds.
+      const bool inserted = is_long && split(cell, s.longest);
+      return inserted + remove(opposite);
+    }
+    if (!is_long) return 0;
+    if (s.ratio <= kMiddling) return split(cell, s.longest);
+    // Above 1.6 the paper splits every edge; one at a time, for a split changes the triangle the others belonged to.
+    return split(cell, s.longest);
+  }
+  /// Two close interior neighbours become one in their middle.
+  int merge(std::uint32_t a, std::uint32_t b) {
+    if (!sheet_.interior(a) || !sheet_.interior(b) || touched_[a] || touched_[b]) return 0;
+    const Vec2 middle = 0.5 * (sheet_.at(a) + sheet_.at(b));
+    touch(a);
+    if (!remove(b)) return 0;
+    const Vec2 before = sheet_.at(a);
+    sheet_.move(a, middle);
+    bool fits = true;
+    sheet_.star(a, [&](std::uint32_t c, std::uint32_t d) {
+      const Vec2 u = sheet_.at(c) - middle, v = sheet_.at(d) - middle;
+      fits = fits && u.x() * v.y() - u.y() * v.x() > 0;
+    });
+    if (!fits) sheet_.move(a, before);
+    return 1;
+  }
+
+ private:
+  Sheet& sheet_;
+  const Ground& ground_;
+  std::vector<std::uint32_t>& ring_;
+  std::vector<char> touched_;
+};
+
+}  // namespace
+
+int apply_edge_ratio_rules(Sheet& sheet, const Ground& ground, std::vector<std::uint32_t>& ring) {
+  std::vector<char> ours(sheet.node_slots(), 0);
+  for (std::uint32_t i = 0; i < sheet.wall_size(); ++i) ours[i] = 1;
+  for (const std::uint32_t i : ring) ours[i] = 1;
+  struct Candidate {
+    double ratio;
+    std::int32_t cell;
+    Triangle node;
+  };
+  std::vector<Candidate> candidates;
+  std::vector<std::array<std::uint32_t, 2>> close;
+  for (std::size_t c = 0; c < sheet.cells().size(); ++c) {
+    if (!sheet.cell_alive(c)) continue;
+    const Triangle& t = sheet.cells()[c].node;
+    if (!ours[t[0]] && !ours[t[1]] && !ours[t[2]]) continue;
+    const Shape s = shape_of(sheet, t);
+    if (s.ratio < kFlat || s.length[s.longest] > kLong) candidates.push_back({s.ratio, static_cast<std::int32_t>(c), t});
+    for (int k = 0; k < 3; ++k)
+      if (s.length[k] < kClose) close.push_back({t[(k + 1) % 3], t[(k + 2) % 3]});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.ratio < b.ratio; });
+  Round round(sheet, ground, ring);
+  int changes = 0;
+  for (const Candidate& c : candidates)
+    if (round.untouched(c.node) && sheet.cells()[c.cell].node == c.node) changes += round.repair(c.cell);
+  for (const auto& [a, b] : close) changes += round.merge(a, b);
+  std::erase_if(ring, [&](std::uint32_t i) { return !sheet.alive(i); });
+  return changes;
+}
+
+}  // namespace vitrine::mesh_room
