@@ -4,8 +4,8 @@
 
 namespace vitrine::mesh_room {
 
-/// A hexagonal lattice, the ground state of a repulsion with a finite range: rows along `axis`, 0.866 steps apart, every
-/// row half a step on.
+/// A hexagonal lattice, the ground state of a repulsion with a finite range: rows along `axis`, 0.866 steps apart,
+/// every row half a step on.
 struct Lattice {
   Vec2 origin = Vec2::Zero();
   Vec2 axis = Vec2::UnitX();  ///< unit vector

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 
 #include "boundary.hpp"
+#include "check.hpp"
 #include "insert.hpp"
 #include "lattice.hpp"
+#include "polish.hpp"
 #include "rules.hpp"
 #include "settle.hpp"
 #include "sheet.hpp"
@@ -21,101 +22,74 @@ namespace {
 
 using namespace mesh_room;
 
-Error degenerate(const std::string& why) {
-  return {
-      Cause::unusable, "DEGENERATE_OUTLINE", "The panel's outline cannot be meshed: " + why + ".",
-      "Check the silhouette and the feature points of this photo; lay the garment flat without folds and retake it.",
-      "mesh"};
-}
+/// How far the wall's disorder is allowed to reach, in target edges: deeper nodes keep their place in the lattice.
+constexpr double kRingDepth = 3.7;
+constexpr int kRounds = 4;  ///< of the edge-ratio rules
 
-Error bad_setting(const std::string& why) {
-  return {Cause::usage, "BAD_SETTING", "The mesh cannot be made: " + why + ".",
-          "Use an edge length above zero, in metres, and at least three nodes.", "mesh"};
-}
-
-Error too_many(double needed, int allowed) {
-  const std::string count = needed < 1e9 ? std::to_string(std::llround(needed)) : "more than 1000000000";
-  return {Cause::unusable, "TOO_MANY_NODES",
-          "The panel would need about " + count + " nodes, more than the " + std::to_string(allowed) + " allowed.",
-          "Use a longer edge length, or check the scale of the garment.", "mesh"};
-}
-
-bool has_repeated_points(std::span<const Vec2> outline) {
-  std::vector<Vec2> sorted(outline.begin(), outline.end());
-  const auto before = [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); };
-  std::sort(sorted.begin(), sorted.end(), before);
-  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-}
-
-/// Sizes are checked before anything is allocated by them; the outline comes from a stranger's photo.
-Result<bool> check(std::span<const Vec2> outline, const MeshOptions& options) {
-  const double h = options.edge_length;
-  if (!std::isfinite(h) || h <= 0) return bad_setting("the edge length is not a positive number");
-  if (options.max_nodes < 3) return bad_setting("fewer than three nodes are allowed");
-  if (outline.size() < 3) return degenerate("it has fewer than three points");
-  if (outline.size() > static_cast<std::size_t>(options.max_nodes))
-    return too_many(static_cast<double>(outline.size()), options.max_nodes);
-  Vec2 low = outline[0], high = outline[0];
-  double length = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    if (!outline[i].allFinite()) return degenerate("a point is not finite");
-    low = low.cwiseMin(outline[i]);
-    high = high.cwiseMax(outline[i]);
-    length += (outline[(i + 1) % outline.size()] - outline[i]).norm();
+/// Whether the triangles are all that lies between the loops: by number (Euler) and by area.
+bool covers(const Boundary& boundary, const std::vector<Vec2>& nodes, const std::vector<Triangle>& triangles) {
+  const std::size_t holes = boundary.loop_count() - 1;
+  if (triangles.size() + boundary.size() + 2 != 2 * (nodes.size() + holes)) return false;
+  double area = 0;
+  for (const Triangle& t : triangles) {
+    const Vec2 u = nodes[t[1]] - nodes[t[0]], v = nodes[t[2]] - nodes[t[0]];
+    area += 0.5 * (u.x() * v.y() - u.y() * v.x());
   }
-  const double box = (high - low).squaredNorm();
-  if (!std::isfinite(box) || !std::isfinite(length)) return degenerate("it is too large for metres");
-  if (has_repeated_points(outline)) return degenerate("a point is repeated");
-  const double area = std::abs(polygon_area(outline));
-  if (!(area > 1e-12 * box)) return degenerate("its area is zero");
-  const double needed = static_cast<double>(outline.size()) + 0.5 * std::max(0.0, area / (0.4330127 * h * h) - static_cast<double>(outline.size()) + 2);
-  if (needed > options.max_nodes) return too_many(needed, options.max_nodes);
-  // A thin sliver has little area but a wall of many magnets.
-  if (length / h > 4.0 * options.max_nodes) return too_many(length / h, options.max_nodes);
-  if (!is_simple_polygon(outline)) return degenerate("it touches or crosses itself");
-  return true;
+  return std::abs(area - boundary.area()) <= 1e-9 * (boundary.high() - boundary.low()).squaredNorm();
 }
 
-double param(const char* n, double d) { const char* s = std::getenv(n); return s ? std::atof(s) : d; }
+/// The nodes that will move, with enough around them to move among, triangulated.
+Result<Sheet> make_sheet(const Boundary& boundary, const Sizing& sizing, const Inserted& inserted) {
+  std::vector<Vec2> nodes = boundary.nodes();
+  nodes.insert(nodes.end(), inserted.ring.begin(), inserted.ring.end());
+  nodes.insert(nodes.end(), inserted.rim.begin(), inserted.rim.end());
+  const std::vector<Triangle> triangles = triangulate(nodes, boundary);
+  if (!covers(boundary, nodes, triangles))
+    return degenerate(boundary.loop_count() > 1
+                          ? "a hole touches the outline or another hole, or does not lie inside the outline"
+                          : "its points are too close to its own segments to triangulate");
+  std::vector<double> sizes(nodes.size(), sizing.target());
+  if (!sizing.uniform())
+    std::transform(nodes.begin(), nodes.end(), sizes.begin(), [&](const Vec2& p) { return sizing.at(p); });
+  return Sheet(std::move(nodes), std::move(sizes), boundary.size(), triangles);
+}
+
+/// Settled, by the rules, and polished.
+void relax(Sheet& sheet, const Ground& ground, std::vector<std::uint32_t> ring, int sweeps) {
+  settle(sheet, ring, sweeps);
+  for (int round = 0; round < kRounds && apply_edge_ratio_rules(sheet, ground, ring) > 0; ++round) {
+    if (!ground.sizing.uniform())
+      for (const std::uint32_t i : ring) sheet.set_size(i, ground.sizing.at(sheet.at(i)));
+    settle(sheet, ring, sweeps / 2);
+  }
+  polish(sheet, ring);
+}
+
 }  // namespace
 
 Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options,
                              std::span<const std::vector<Vec2>> holes) {
-  if (const auto ok = check(outline, options); !ok) return ok.error();
-  const double h = options.edge_length;
+  if (auto error = check(outline, holes, options)) return *std::move(error);
   const Boundary boundary(outline, holes);
-  const Wall wall(boundary, h);
-  const Sizing sizing(boundary, h);
+  const Wall wall(boundary, options.edge_length);
+  const Sizing sizing(boundary, options.edge_length);
   const Ground ground{boundary, wall, sizing};
-  const Lattice lattice = fit_lattice(boundary, h);
-  const Inserted inserted = insert_nodes(ground, lattice, param("DEPTH", 3.7), options.max_nodes);
-  const std::size_t total = boundary.size() + inserted.ring.size() + inserted.rim.size() + inserted.deep.size();
-  if (total > static_cast<std::size_t>(options.max_nodes)) return too_many(static_cast<double>(total), options.max_nodes);
-  std::vector<Vec2> nodes = boundary.nodes();
-  nodes.insert(nodes.end(), inserted.ring.begin(), inserted.ring.end());
+  const auto max_nodes = static_cast<std::size_t>(options.max_nodes);
+  const Inserted inserted = insert_nodes(ground, fit_lattice(boundary, options.edge_length), kRingDepth, max_nodes);
+
+  auto sheet = make_sheet(boundary, sizing, inserted);
+  if (!sheet) return sheet.error();
   std::vector<std::uint32_t> ring(inserted.ring.size());
   std::iota(ring.begin(), ring.end(), static_cast<std::uint32_t>(boundary.size()));
-  nodes.insert(nodes.end(), inserted.rim.begin(), inserted.rim.end());
-  const auto first = triangulate(nodes, boundary);
-  if (first.empty()) return degenerate("its points are too close to its own segments to triangulate");
-  std::vector<double> sizes(nodes.size(), h);
-  if (!sizing.uniform()) for (std::size_t i = 0; i < nodes.size(); ++i) sizes[i] = sizing.at(nodes[i]);
-  Sheet sheet(std::move(nodes), std::move(sizes), boundary.size(), first);
-  int sw = settle(sheet, ring, (int)param("SWEEPS",12));
-  for (int r = 0; r < (int)param("ROUNDS", 4); ++r) {
-    int ch = apply_edge_ratio_rules(sheet, ground, ring);
-  if(getenv("VERB")) fprintf(stderr,"round %d changes %d\n", r, ch);
-    if (ch == 0) break;
-    if (!sizing.uniform()) for (auto i : ring) sheet.set_size(i, sizing.at(sheet.at(i)));
-    settle(sheet, ring, (int)param("SW2",6));
-  }
-  polish(sheet, ring, (int)param("POLISH",6));
-  if(getenv("VERB")) fprintf(stderr,"axis %.3f %.3f sweeps %d ring %zu deep %zu of %zu\n", lattice.axis.x(), lattice.axis.y(), sw,inserted.ring.size(), inserted.deep.size(), ring.size());
+  relax(*sheet, ground, std::move(ring), std::max(0, options.max_sweeps));
+
   PanelMesh mesh;
-  mesh.nodes = sheet.nodes();
+  mesh.nodes = sheet->nodes();
   mesh.nodes.insert(mesh.nodes.end(), inserted.deep.begin(), inserted.deep.end());
+  if (mesh.nodes.size() > max_nodes) return too_many(static_cast<double>(mesh.nodes.size()), options.max_nodes);
   mesh.triangles = triangulate(mesh.nodes, boundary);
-  if (mesh.triangles.empty()) return degenerate("its points are too close to its own segments to triangulate");
+  if (!covers(boundary, mesh.nodes, mesh.triangles))
+    return degenerate("its points are too close to its own segments to triangulate");
   return mesh;
 }
 

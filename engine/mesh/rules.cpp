@@ -115,7 +115,8 @@ int apply_edge_ratio_rules(Sheet& sheet, const Ground& ground, std::vector<std::
     const Triangle& t = sheet.cells()[c].node;
     if (!ours[t[0]] && !ours[t[1]] && !ours[t[2]]) continue;
     const Shape s = shape_of(sheet, t);
-    if (s.ratio < kFlat || s.length[s.longest] > kLong) candidates.push_back({s.ratio, static_cast<std::int32_t>(c), t});
+    if (s.ratio < kFlat || s.length[s.longest] > kLong)
+      candidates.push_back({s.ratio, static_cast<std::int32_t>(c), t});
     for (int k = 0; k < 3; ++k)
       if (s.length[k] < kClose) close.push_back({t[(k + 1) % 3], t[(k + 2) % 3]});
   }

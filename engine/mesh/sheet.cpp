@@ -74,6 +74,17 @@ int Sheet::valence(std::uint32_t i) const {
   return n;
 }
 
+std::vector<std::int32_t> Sheet::cells_of(const std::vector<std::uint32_t>& nodes) const {
+  std::vector<char> seen(cells_.size(), 0);
+  std::vector<std::int32_t> cells;
+  for (const std::uint32_t i : nodes)
+    cells_at(i, [&](std::int32_t c) {
+      if (!seen[c]) cells.push_back(c);
+      seen[c] = 1;
+    });
+  return cells;
+}
+
 bool Sheet::can_flip(std::int32_t c, int k) const {
   const Cell& cell = cells_[c];
   const std::int32_t d = cell.next[k];

@@ -59,6 +59,9 @@ class Sheet {
     } while (c != first && c != kNone);
   }
 
+  /// The cells at the nodes, each once.
+  std::vector<std::int32_t> cells_of(const std::vector<std::uint32_t>& nodes) const;
+
   /// Flips edges of the cells until every one of them is Delaunay, and those that the flips touched; returns the flips.
   int legalise(const std::vector<std::int32_t>& cells);
   int legalise(std::uint32_t node);

@@ -7,9 +7,9 @@
 namespace vitrine::mesh_room {
 namespace {
 
-constexpr double kNarrow = 4;     ///< [-] a part of fewer edges across is graded
-constexpr double kFinest = 0.5;   ///< [-] of the target, in narrow parts
-constexpr double kShort = 0.6;    ///< [-] shorter segments, in targets, ask for finer edges around them
+constexpr double kNarrow = 4;    ///< [-] a part of fewer edges across is graded
+constexpr double kFinest = 0.5;  ///< [-] of the target, in narrow parts
+constexpr double kShort = 0.6;   ///< [-] shorter segments, in targets, ask for finer edges around them
 constexpr double kFinestAtSegments = 1.0 / 64;
 constexpr double kGrowth = 0.4;   ///< [m/m] of the edge length with the distance from a spot
 constexpr double kFacing = 0.87;  ///< [-] cosine: walls within 30 degrees of parallel bound a part, others a corner

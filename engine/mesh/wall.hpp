@@ -14,8 +14,8 @@ class Wall {
  public:
   Wall(const Boundary& boundary, double edge_length);
   struct Nearest {
-    double distance;    ///< [m] to the nearest piece; the limit when none is nearer
-    double edge = 0;    ///< [m] length of that piece
+    double distance;     ///< [m] to the nearest piece; the limit when none is nearer
+    double edge = 0;     ///< [m] length of that piece
     bool inside = true;  ///< on the cloth's side of it
   };
   Nearest nearest(const Vec2& p, double limit) const;

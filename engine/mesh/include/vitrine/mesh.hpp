@@ -11,7 +11,7 @@ namespace vitrine {
 struct MeshOptions {
   double edge_length = 0.02;  ///< [m] target
   int max_nodes = 200'000;    ///< refuse outlines that would need more (TOO_MANY_NODES)
-  int max_sweeps = 200;       ///< magnet relaxation
+  int max_sweeps = 12;        ///< magnet relaxation, before the edge-ratio rules; half as many after each round of them
 };
 
 /// Figures of a mesh. Edge ratio = (sum of the two shorter edges) / longest: 1 flat, 2 equilateral.
@@ -26,11 +26,13 @@ struct MeshStats {
   double edge_cv = 0;         ///< [-] coefficient of variation of edge lengths
 };
 
-/// Uniform mesh of a simple polygon (paper III.B): magnet node insertion, constrained Delaunay triangulation,
-/// edge-ratio rules. The outline's own nodes and segments are kept exactly: nodes [0, outline.size()) are the outline.
-/// Edge ratio = (sum of the two shorter edges) / longest: 1 flat, 2 equilateral.
-/// Errors (65): DEGENERATE_OUTLINE (self-crossing, repeated points, zero area, non-finite), TOO_MANY_NODES; (64):
-/// BAD_SETTING. Either winding is taken; triangles are counter-clockwise.
+/// Uniform mesh of a polygon with holes (paper III.B): magnet node insertion, constrained Delaunay triangulation,
+/// edge-ratio rules. The boundary's own nodes and segments are kept exactly: the mesh's first nodes are the outline,
+/// then the holes, all in the order given; no other node lies on them. Edges are finer where a part is narrower than
+/// four of them, down to a quarter of its width but not below half the target, and around boundary segments shorter
+/// than 0.6 of the target. Either winding is taken; triangles are counter-clockwise. Same input, same bytes.
+/// Errors (65): DEGENERATE_OUTLINE (a loop that crosses or touches itself or another, repeated points, zero area, fewer
+/// than three points, non-finite, a hole outside the outline), TOO_MANY_NODES; (64): BAD_SETTING.
 Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options = {},
                              std::span<const std::vector<Vec2>> holes = {});
 
