@@ -62,6 +62,7 @@ void relax(Sheet& sheet, const Ground& ground, std::vector<std::uint32_t> ring, 
       for (const std::uint32_t i : ring) sheet.set_size(i, ground.sizing.at(sheet.at(i)));
     settle(sheet, ring, sweeps / 2);
   }
+  relieve_sharp_triangles(sheet, ring);
   polish(sheet, ring);
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kGoodRatio = 1.63, kFlatRatio = 1.36;  ///< [-] the rules' 1.6 and 1.3 with a margin
 constexpr double kGoodSine = 0.62;                      ///< [-] of the smallest angle: 38 degrees
-constexpr double kMiddlingWeight = 1, kFlatWeight = 3, kSharpWeight = 8;
+constexpr double kSharpSine = 0.42;                     ///< 25 degrees: below it nothing is given up for others' sake
+constexpr double kMiddlingWeight = 1, kFlatWeight = 3, kSmallWeight = 8, kSharpWeight = 80;
 constexpr double kUneven = 0.02;  ///< [-] weight of edges off their target length
 constexpr int kRounds = 6, kHalvings = 3;
 constexpr double kFirstStep = 0.1, kStepDecay = 0.7;  ///< [-] in target edges, and from round to round
@@ -33,8 +34,9 @@ double fault(const Vec2& a, const Vec2& b, const Vec2& c) {
   // 1.64 at least.
   if (p > 0.82 * 0.82 * r) return 0;
   const double longest = std::sqrt(r), middle = std::sqrt(q), ratio = (std::sqrt(p) + middle) / longest;
+  const double sine = twice_area / (middle * longest);  // of the smallest angle
   return kMiddlingWeight * std::max(0.0, kGoodRatio - ratio) + kFlatWeight * std::max(0.0, kFlatRatio - ratio) +
-         kSharpWeight * std::max(0.0, kGoodSine - twice_area / (middle * longest));
+         kSmallWeight * std::max(0.0, kGoodSine - sine) + kSharpWeight * std::max(0.0, kSharpSine - sine);
 }
 
 double faults_at(const Sheet& sheet, std::uint32_t i, const Vec2& p, double enough) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace vitrine::mesh_room {
 namespace {
@@ -11,6 +12,16 @@ constexpr double kFlat = 1.3, kMiddling = 1.6;  ///< [-] the paper's edge-ratio 
 /// Halving an edge must not go below the target: the halves of a longer one are nearer to it than the whole.
 constexpr double kLong = 1.42;
 constexpr double kClose = 0.62;  ///< [-] shorter interior edges, in target edges, are merged
+
+constexpr double kSharp = 0.342;  ///< [-] sine of 20 degrees
+
+/// Sine of the smallest angle of a counter-clockwise triangle: twice the area over its two longer edges.
+double smallest_sine(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 u = b - a, v = c - b, w = a - c;
+  const double p = u.squaredNorm(), q = v.squaredNorm(), r = w.squaredNorm();
+  const double shortest = std::min({p, q, r});
+  return (u.x() * v.y() - u.y() * v.x()) * std::sqrt(shortest / (p * q * r));
+}
 
 struct Shape {
   std::array<double, 3> length;  ///< of the edge opposite to corner k, in target edges
@@ -129,6 +140,36 @@ int apply_edge_ratio_rules(Sheet& sheet, const Ground& ground, std::vector<std::
   for (const auto& [a, b] : close) changes += round.merge(a, b);
   std::erase_if(ring, [&](std::uint32_t i) { return !sheet.alive(i); });
   return changes;
+}
+
+void relieve_sharp_triangles(Sheet& sheet, std::vector<std::uint32_t>& ring) {
+  const std::size_t count = sheet.cells().size();
+  for (std::size_t c = 0; c < count; ++c) {
+    if (!sheet.cell_alive(c)) continue;
+    const Sheet::Cell cell = sheet.cells()[c];
+    if (sheet.interior(cell.node[0]) && sheet.interior(cell.node[1]) && sheet.interior(cell.node[2])) continue;
+    const Vec2 p[] = {sheet.at(cell.node[0]), sheet.at(cell.node[1]), sheet.at(cell.node[2])};
+    if (smallest_sine(p[0], p[1], p[2]) > kSharp) continue;
+    int longest = -1;
+    double length = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double l = (p[(k + 1) % 3] - p[(k + 2) % 3]).squaredNorm();
+      if (cell.next[k] == Sheet::kNone || l <= length) continue;
+      length = l;
+      longest = k;
+    }
+    if (longest < 0) continue;
+    const Vec2 &near = p[longest], &a = p[(longest + 1) % 3], &b = p[(longest + 2) % 3];
+    const Vec2 &far = sheet.at(sheet.opposite(static_cast<std::int32_t>(c), longest)), m = 0.25 * (near + far + a + b);
+    const double before = std::min(smallest_sine(near, a, b), smallest_sine(far, b, a));
+    const double after = std::min(
+        {smallest_sine(near, a, m), smallest_sine(near, m, b), smallest_sine(far, b, m), smallest_sine(far, m, a)});
+    if (after <= before) continue;
+    const auto made = static_cast<std::uint32_t>(sheet.split(static_cast<std::int32_t>(c), longest));
+    sheet.move(made, m);
+    sheet.legalise(made);
+    ring.push_back(made);
+  }
 }
 
 }  // namespace vitrine::mesh_room

@@ -33,6 +33,11 @@ class Sheet {
   const std::vector<Cell>& cells() const { return cells_; }
   bool cell_alive(std::size_t c) const { return cells_[c].node[0] != cells_[c].node[1]; }
   int valence(std::uint32_t i) const;
+  /// The node across the edge opposite to corner k; there must be a neighbour.
+  std::uint32_t opposite(std::int32_t cell, int k) const {
+    const Cell& other = cells_[cells_[cell].next[k]];
+    return other.node[side(other, cell)];
+  }
 
   /// Calls visit(b, c) for every triangle (i, b, c) at node i, counter-clockwise; each ring node of an interior node is
   /// `b` once.
