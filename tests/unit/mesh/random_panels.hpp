@@ -33,9 +33,10 @@ inline bool inside(const Outline& p, const Vec2& q) {
 /// Two parts joined by a strap, and a slot cut into one of them: narrow parts and sharp concave corners.
 inline Outline strapped(std::uint32_t seed, double h) {
   Random r(seed);
-  const double w = std::min(0.18, r.between(0.5, 5) * h), slot = r.between(0.5, 3) * h, lean = r.between(-0.1, 0.1);
+  const double w = std::min(0.15, r.between(0.5, 5) * h), slot = r.between(0.5, 3) * h, lean = r.between(-0.1, 0.1);
   const double length = r.between(0.1, 0.3), deep = r.between(0.05, 0.2);
-  const Vec2 a(-0.3, 0), b(-0.1 - slot, 0), tip(-0.1 - slot / 2 + lean, deep), c(-0.1, 0), d(0.3, 0), e(0.3 + lean, 0.35);
+  const Vec2 a(-0.3, 0), b(-0.1 - slot, 0), tip(-0.1 - slot / 2 + lean, deep), c(-0.1, 0), d(0.3, 0),
+      e(0.3 + lean, 0.35);
   const Vec2 f(w, 0.3), g(w + lean, 0.3 + length), i(0.2 + lean, 0.35 + length), j(lean, 0.5 + length);
   const Vec2 k(-0.2 + lean, 0.35 + length), l(lean, 0.3 + length), m(0, 0.3), n(-0.3, 0.25);
   std::vector<Outline> sides;
@@ -45,7 +46,8 @@ inline Outline strapped(std::uint32_t seed, double h) {
   Outline outline;
   for (const Outline& side : sides) {
     const int pieces = std::max(1, static_cast<int>(std::lround((side[1] - side[0]).norm() / h)));
-    for (int p = 0; p < pieces; ++p) outline.push_back(side[0] + (side[1] - side[0]) * (static_cast<double>(p) / pieces));
+    for (int p = 0; p < pieces; ++p)
+      outline.push_back(side[0] + (side[1] - side[0]) * (static_cast<double>(p) / pieces));
   }
   return outline;
 }
@@ -55,9 +57,14 @@ inline RandomPanel random_panel(std::uint32_t seed) {
   RandomPanel panel;
   panel.h = r.between(0.012, 0.06);
   switch (seed % 3) {
-    case 0: panel.outline = blob(seed, panel.h); break;
-    case 1: panel.outline = star(seed, panel.h); break;
-    default: panel.outline = strapped(seed, panel.h);
+    case 0:
+      panel.outline = blob(seed, panel.h);
+      break;
+    case 1:
+      panel.outline = star(seed, panel.h);
+      break;
+    default:
+      panel.outline = strapped(seed, panel.h);
   }
   if (seed % 2 == 1) return panel;
   for (int tries = 0; tries < 12; ++tries) {
