@@ -10,9 +10,10 @@ int main(int argc, char** argv) {
   CLI::App app("Measures Vitrine's rooms; times are processor time.");
   app.require_subcommand(1);
   const auto mesh = vitrine::bench::add_mesh_command(app);
+  const auto peers = vitrine::bench::add_mesh_peers_command(app);
   CLI11_PARSE(app, argc, argv);
   try {
-    return mesh();
+    return app.got_subcommand("mesh") ? mesh() : peers();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "vitrine-bench: %s\n", error.what());
     return 66;

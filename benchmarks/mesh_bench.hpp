@@ -42,8 +42,21 @@ struct PeerRun {
   PanelMesh mesh;
   double ms = 0;
 };
-bool have_gmsh();
+/// gmsh's frontal-Delaunay mesher on one thread, its boundary nodes kept. Throws where the build is without gmsh.
 PeerRun run_gmsh_frontal(const OutlineCase& outline);
-PeerRun run_cgal_lloyd(const OutlineCase& outline, int iterations);
+bool have_gmsh();
+/// CGAL's Mesh_2 refinement, then `rounds` of Lloyd. It splits boundary segments.
+PeerRun run_cgal_lloyd(const OutlineCase& outline, int rounds);
+
+/// One row of the comparison.
+struct PeerRow {
+  std::string outline, mesher;
+  double edge_length = 0;  ///< [m]
+  double ms = 0;           ///< median
+  MeshStats stats;
+};
+void write_csv(const std::vector<PeerRow>& rows, const std::string& file);
+/// Time and evenness over the node count, one line per mesher.
+void write_svg(const std::vector<PeerRow>& rows, const std::string& file);
 
 }  // namespace vitrine::bench

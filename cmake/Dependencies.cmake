@@ -18,4 +18,7 @@ if(VITRINE_TESTS)
 endif()
 if(VITRINE_BENCHMARKS)
   find_package(benchmark REQUIRED)                                   # debian: libbenchmark-dev
+  # A program to compare with; vitrine-bench leaves it out where it is not installed.
+  find_library(GMSH_LIBRARY gmsh)                                    # debian-peer: libgmsh-dev
+  find_path(GMSH_INCLUDE_DIR gmsh.h)
 endif()
