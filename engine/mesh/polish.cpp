@@ -14,7 +14,7 @@ constexpr double kGoodSine = 0.62;                      ///< [-] of the smallest
 constexpr double kSharpSine = 0.42;                     ///< 25 degrees: below it nothing is given up for others' sake
 constexpr double kMiddlingWeight = 1, kFlatWeight = 3, kSmallWeight = 8, kSharpWeight = 80;
 constexpr double kUneven = 0.02;  ///< [-] weight of edges off their target length
-constexpr int kRounds = 6, kHalvings = 3;
+constexpr int kRounds = 5, kHalvings = 2;
 constexpr double kFirstStep = 0.1, kStepDecay = 0.7;  ///< [-] in target edges, and from round to round
 const std::array<Vec2, 6> kDirections = [] {
   const double s = 0.5 * std::numbers::sqrt3;

@@ -14,7 +14,8 @@ namespace vitrine::mesh_room {
 int apply_edge_ratio_rules(Sheet& sheet, const Ground& ground, std::vector<std::uint32_t>& ring);
 
 /// In sharp corners and slits of the outline, where no lattice site has room: a triangle with an angle below 20 degrees
-/// and its neighbour across its long edge get a node in their middle where that makes the smallest angle larger. New nodes join the ring.
+/// and its neighbour across its long edge get a node in their middle where that makes the smallest angle larger. New
+/// nodes join the ring.
 void relieve_sharp_triangles(Sheet& sheet, std::vector<std::uint32_t>& ring);
 
 }  // namespace vitrine::mesh_room

@@ -4,16 +4,31 @@
 
 namespace vitrine {
 
-/// The mannequin room is not on this list: its body and voxels are made once and shared by every item (request.body).
-Conversion convert(const ConvertRequest& request) {
-  Conversion item;
-  Rooms rooms(request, item);
+namespace {
+
+void enter_flat_rooms(Rooms& rooms) {
   rooms.enter("request", [&] { return rooms.check_request(); });
   rooms.enter("photo", [&] { return rooms.load_photos(); });
   rooms.enter("silhouette", [&] { return rooms.find_silhouettes(); });
   rooms.enter("features", [&] { return rooms.find_feature_points(); });
   rooms.enter("panels", [&] { return rooms.cut_panels(); });
   rooms.enter("mesh", [&] { return rooms.mesh_levels(); });
+}
+
+}  // namespace
+
+Conversion cut_and_mesh(const ConvertRequest& request) {
+  Conversion item;
+  Rooms rooms(request, item);
+  enter_flat_rooms(rooms);
+  return item;
+}
+
+/// The mannequin room is not on this list: its body and voxels are made once and shared by every item (request.body).
+Conversion convert(const ConvertRequest& request) {
+  Conversion item;
+  Rooms rooms(request, item);
+  enter_flat_rooms(rooms);
   rooms.enter("fit", [&] { return rooms.place(); });
   rooms.enter("sewing", [&] { return rooms.sew(); });
   rooms.enter("texture", [&] { return rooms.texture(); });

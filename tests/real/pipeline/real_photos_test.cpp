@@ -5,44 +5,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
-#include "vitrine/host/registry.hpp"
-#include "vitrine/pipeline.hpp"
+#include "real_items.hpp"
 
 namespace vitrine {
 namespace {
-
-namespace fs = std::filesystem;
-const fs::path photos = fs::path(VITRINE_SOURCE_DIR) / ".." / "shared" / "photos";
-
-struct Item {
-  std::string name, garment, front, back;
-};
-
-std::vector<Item> real_items() {
-  std::vector<Item> items;
-  std::ifstream index(photos / "index.tsv");
-  std::string line;
-  while (std::getline(index, line)) {
-    std::istringstream row(line);
-    std::string file, garment, neckline, view;
-    for (auto* field : {&file, &garment, &neckline, &view}) std::getline(row, *field, '\t');
-    if (view != "front" || (garment != "vest" && garment != "longsleeve" && garment != "skirt")) continue;
-    Item item;
-    item.name = file.substr(0, file.find("-front"));
-    item.garment = garment == "longsleeve" ? "long_sleeve" : garment;
-    item.front = (photos / file).string();
-    std::string back = file;
-    back.replace(back.find("front"), 5, "back");
-    if (fs::exists(photos / back)) item.back = (photos / back).string();
-    items.push_back(item);
-  }
-  return items;
-}
 
 bool finite(const RenderMesh& mesh) {
   for (const auto* list : {&mesh.positions, &mesh.normals})
@@ -87,31 +55,15 @@ Surface surface_of(const Conversion& item) {
 }  // namespace
 
 TEST(RealPhotos, most_convert_within_the_bars_and_the_rest_say_why) {
-  const auto items = real_items();
+  const auto items = test::real_items();
   if (items.empty()) GTEST_SKIP() << "the real photos are not beside this checkout (../shared/photos)";
-  PluginSearch search;
-  search.folders = {std::string(VITRINE_BINARY_DIR) + "/lib/vitrine-1/plugins"};
-  const PluginRegistry registry = PluginRegistry::load(search);
-  auto body = std::make_shared<Body>();
-  auto mannequin = build_mannequin({});
-  ASSERT_TRUE(mannequin);
-  body->mannequin = *std::move(mannequin);
-  auto field = voxelise(body->mannequin.mesh);
-  ASSERT_TRUE(field);
-  body->field = *std::move(field);
+  const PluginRegistry registry = test::built_in_plugins();
+  const auto body = test::default_body();
+  ASSERT_NE(body, nullptr);
 
   int converted = 0;
-  for (const Item& item : items) {
-    const GarmentTemplate* garment = registry.find_garment(item.garment);
-    ASSERT_NE(garment, nullptr) << item.garment;
-    ConvertRequest request;
-    request.name = item.name;
-    request.front = item.front;
-    request.back = item.back;
-    request.mirror_back = item.back.empty();
-    request.garment = *garment;
-    request.necklines.assign(registry.necklines().begin(), registry.necklines().end());
-    request.others.assign(registry.garments().begin(), registry.garments().end());
+  for (const test::RealItem& item : items) {
+    ConvertRequest request = test::request_for(item, registry);
     request.quality = Quality::draft;
     request.body = body;
     const Conversion result = convert(request);

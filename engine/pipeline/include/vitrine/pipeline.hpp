@@ -113,6 +113,9 @@ ViewRequest view_of(const ConvertRequest& request, Side side);
 /// One garment, from two photos to files in memory: the rooms in their order.
 Conversion convert(const ConvertRequest& request);
 
+/// The rooms as far as the mesh: the pattern as it lies on the table, nothing placed or sewn.
+Conversion cut_and_mesh(const ConvertRequest& request);
+
 /// report.json: status, reason, features in pixels of the photos as given, mesh and drape figures, milliseconds per
 /// room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
