@@ -21,7 +21,7 @@ using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure>;
 using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Cdt>;
 
 /// Refinement stops at edges up to its bound, so that a bound of the target would give too few nodes.
-constexpr double kSizeFactor = 1.35;
+constexpr double kSizeFactor = 1.47;
 
 }  // namespace
 

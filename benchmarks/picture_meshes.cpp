@@ -59,9 +59,9 @@ void draw(const std::string& garment, const std::string& item, const std::string
     std::printf("%d nodes, smallest angle %.1f, edge CV %.3f\n", s.nodes, s.min_angle_deg, s.edge_cv);
     pictures.push_back(draw_mesh(made.pattern.meshes[0], 900));
   }
-  const auto png = encode_png(beside(pictures));
-  if (!png) require(png.error());
-  require(write_file(out, *png));
+  const auto jpeg = encode_jpeg(beside(pictures), 80);
+  if (!jpeg) require(jpeg.error());
+  require(write_file(out, *jpeg));
 }
 
 }  // namespace
@@ -69,10 +69,10 @@ void draw(const std::string& garment, const std::string& item, const std::string
 
 int main(int argc, char** argv) {
   CLI::App app("Draws the front panel of a sample garment meshed at draft, standard and fine.");
-  std::string garment = "vest", item = "vest-sailor", out = "docs/meshes.png";
+  std::string garment = "vest", item = "vest-sailor", out = "docs/meshes.jpg";
   app.add_option("--garment", garment, "Garment of the built-in plugins");
   app.add_option("--item", item, "Item of the sample catalogue, without -front.jpg");
-  app.add_option("--out", out, "PNG to write");
+  app.add_option("--out", out, "JPEG to write");
   CLI11_PARSE(app, argc, argv);
   try {
     vitrine::draw(garment, item, out);
