@@ -87,7 +87,7 @@ void write_svg(const std::vector<PeerRow>& rows, const std::string& file) {
     time[r.mesher].push_back({x, t});
     cv[r.mesher].push_back({x, r.stats.edge_cv});
     x0 = std::min(x0, std::floor(x));
-    x1 = std::max(x1, std::ceil(x));
+    x1 = std::max(x1, std::ceil(x - 0.05));  // 102,000 nodes still belong to the fifth decade
     t0 = std::min(t0, std::floor(t));
     t1 = std::max(t1, std::ceil(t));
     c1 = std::max(c1, std::ceil(20 * r.stats.edge_cv) / 20);

@@ -13,7 +13,8 @@ constexpr double kGoodRatio = 1.63, kFlatRatio = 1.36;  ///< [-] the rules' 1.6 
 constexpr double kGoodSine = 0.62;                      ///< [-] of the smallest angle: 38 degrees
 constexpr double kSharpSine = 0.42;                     ///< 25 degrees: below it nothing is given up for others' sake
 constexpr double kMiddlingWeight = 1, kFlatWeight = 3, kSmallWeight = 8, kSharpWeight = 80;
-constexpr double kUneven = 0.02;  ///< [-] weight of edges off their target length
+constexpr double kTurnedOver = 1e9;  ///< more than all other faults together: no move is worth it
+constexpr double kUneven = 0.02;     ///< [-] weight of edges off their target length
 constexpr int kRounds = 5, kHalvings = 2;
 constexpr double kFirstStep = 0.1, kStepDecay = 0.7;  ///< [-] in target edges, and from round to round
 const std::array<Vec2, 6> kDirections = [] {
@@ -29,7 +30,7 @@ double fault(const Vec2& a, const Vec2& b, const Vec2& c) {
   if (p > q) std::swap(p, q);
   if (q > r) std::swap(q, r);
   if (p > q) std::swap(p, q);
-  if (twice_area <= 1e-3 * r) return 100;
+  if (twice_area <= 0) return kTurnedOver;
   // Most triangles are near enough to equilateral to need no roots: no edge below 0.82 of the longest is a ratio of
   // 1.64 at least.
   if (p > 0.82 * 0.82 * r) return 0;

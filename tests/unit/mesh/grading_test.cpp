@@ -81,6 +81,24 @@ TEST(Grading, keeps_straps_of_one_centimetre_valid_at_every_edge_length) {
   }
 }
 
+TEST(Grading, keeps_sharp_triangles_off_walls_of_any_spacing_up_to_three_targets) {
+  const double h = 0.02;
+  for (const double spacing : {0.2, 0.3, 0.5, 0.7, 1.0, 1.3, 1.5, 2.0, 2.5, 3.0})
+    for (const auto shape : {test::vest, test::skirt})
+      EXPECT_GE(measure_mesh(meshed(shape(spacing * h), h)).min_angle_deg, 20) << spacing;
+}
+
+TEST(Grading, is_bounded_where_the_outline_is_far_finer_or_coarser_than_the_target) {
+  Outline circle;
+  for (int i = 0; i < 20000; ++i) {
+    const double a = 2 * std::numbers::pi * i / 20000;
+    circle.push_back({0.3 * std::cos(a), 0.3 * std::sin(a)});
+  }
+  EXPECT_LT(meshed(circle, 0.02).nodes.size(), 60000u);
+  const PanelMesh square = meshed({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.01);
+  EXPECT_NEAR(static_cast<double>(square.nodes.size()), 11547, 400);
+}
+
 TEST(Grading, goes_with_segments_that_are_shorter_than_the_target) {
   // One segment of a tenth of the target among regular ones.
   Outline outline =

@@ -30,7 +30,8 @@ struct MeshStats {
 /// edge-ratio rules. The boundary's own nodes and segments are kept exactly: the mesh's first nodes are the outline,
 /// then the holes, all in the order given; no other node lies on them. Edges are finer where a part is narrower than
 /// four of them, down to a quarter of its width but not below half the target, and around boundary segments shorter
-/// than 0.6 of the target. Either winding is taken; triangles are counter-clockwise. Same input, same bytes.
+/// than 0.6 of the target. Segments longer than three targets leave sharp triangles on them: nothing may divide them.
+/// Either winding is taken; triangles are counter-clockwise. Same input, same bytes.
 /// Errors (65): DEGENERATE_OUTLINE (a loop that crosses or touches itself or another, repeated points, zero area, fewer
 /// than three points, non-finite, a hole outside the outline), TOO_MANY_NODES; (64): BAD_SETTING.
 Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& options = {},
