@@ -21,7 +21,7 @@ Turn half(const Turn& t) {
 }
 const Turn kSixth{0.5, 0.5 * std::numbers::sqrt3};
 
-/// (cosine, sine) of a phase in full turns to 1e-7, from arithmetic alone: the maths library's last digit differs
+/// (cosine, sine) of a phase in full turns to 1e-6, from arithmetic alone: the maths library's last digit differs
 /// between processors, and must not decide between two lattices.
 Turn turn_of(double phase) {
   const double t = phase - std::floor(phase + 0.5);  // -0.5 .. 0.5

@@ -73,7 +73,7 @@ Result<PanelMesh> mesh_panel(std::span<const Vec2> outline, const MeshOptions& o
   if (auto error = check(outline, holes, options)) return *std::move(error);
   const Boundary boundary(outline, holes);
   const Wall wall(boundary, options.edge_length);
-  const Sizing sizing(boundary, options.edge_length);
+  const Sizing sizing(boundary, wall, options.edge_length);
   const Ground ground{boundary, wall, sizing};
   const auto max_nodes = static_cast<std::size_t>(options.max_nodes);
   const Inserted inserted = insert_nodes(ground, fit_lattice(boundary, options.edge_length), kRingDepth, max_nodes);

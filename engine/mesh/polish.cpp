@@ -13,6 +13,7 @@ constexpr double kGoodRatio = 1.63, kFlatRatio = 1.36;  ///< [-] the rules' 1.6 
 constexpr double kGoodSine = 0.62;                      ///< [-] of the smallest angle: 38 degrees
 constexpr double kSharpSine = 0.42;                     ///< 25 degrees: below it nothing is given up for others' sake
 constexpr double kMiddlingWeight = 1, kFlatWeight = 3, kSmallWeight = 8, kSharpWeight = 80;
+constexpr double kLeastGap = 0.4;    ///< [-] of a node from the wall, in target edges
 constexpr double kTurnedOver = 1e9;  ///< more than all other faults together: no move is worth it
 constexpr double kUneven = 0.02;     ///< [-] weight of edges off their target length
 constexpr int kRounds = 5, kHalvings = 2;
@@ -49,6 +50,11 @@ double faults_at(const Sheet& sheet, std::uint32_t i, const Vec2& p, double enou
     const double target = 0.5 * (size + sheet.size(b));
     const double off = (p - sheet.at(b)).squaredNorm() / (target * target) - 1;
     sum += kUneven * off * off;
+    if (sheet.interior(b) || sheet.interior(c)) return;
+    // A long wall segment's triangle is sharp wherever its node is: without this the node would be given up.
+    const Vec2 wall = sheet.at(c) - sheet.at(b), d = p - sheet.at(b);
+    const double gap = (wall.x() * d.y() - wall.y() * d.x()) / (wall.norm() * size);
+    sum += kSharpWeight * std::max(0.0, kLeastGap - gap);
   });
   return sum;
 }

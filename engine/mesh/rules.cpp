@@ -8,7 +8,7 @@
 namespace vitrine::mesh_room {
 namespace {
 
-constexpr double kFlat = 1.3, kMiddling = 1.6;  ///< [-] the paper's edge-ratio bounds
+constexpr double kFlat = 1.3;  ///< [-] the paper's bound for the edge ratio of flat triangles
 /// Halving an edge must not go below the target: the halves of a longer one are nearer to it than the whole.
 constexpr double kLong = 1.42;
 constexpr double kClose = 0.62;  ///< [-] shorter interior edges, in target edges, are merged
@@ -75,14 +75,12 @@ class Round {
     const bool is_long = s.length[s.longest] > kLong;
     if (s.ratio < kFlat) {
       const std::uint32_t opposite = t[s.longest];
-      // The node goes first, or its new neighbour would stand in its way; nothing is lost where only that succeeds.
       const bool inserted = is_long && split(cell, s.longest);
       return inserted + remove(opposite);
     }
-    if (!is_long) return 0;
-    if (s.ratio <= kMiddling) return split(cell, s.longest);
-    // Above 1.6 the paper splits every edge; one at a time, for a split changes the triangle the others belonged to.
-    return split(cell, s.longest);
+    // Above 1.6 the paper splits every edge; here the longest, for that changes the triangle the others belonged to,
+    // and the next round sees to them.
+    return is_long && split(cell, s.longest);
   }
   /// Two close interior neighbours become one in their middle.
   int merge(std::uint32_t a, std::uint32_t b) {

@@ -19,8 +19,8 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Where the neighbours push node i, averaged over them [m]. Every force is scaled by R r^2: a unit at rest moves a
-/// node by as much as its edge is off.
+/// Where the neighbours push node i [m]: the forces times R^3, over the sum of (R / r)^2, which makes it the mean of
+/// how far the edges are off their rest length, the shorter ones weighing more.
 Vec2 push_at(const Sheet& sheet, std::uint32_t i) {
   const Vec2 p = sheet.at(i);
   const double size = sheet.size(i);

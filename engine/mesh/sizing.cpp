@@ -16,9 +16,9 @@ constexpr double kFacing = 0.87;  ///< [-] cosine: walls within 30 degrees of pa
 
 }  // namespace
 
-Sizing::Sizing(const Boundary& boundary, double edge_length)
+Sizing::Sizing(const Boundary& boundary, const Wall& wall, double edge_length)
     : target_(edge_length), grid_(boundary.low(), boundary.high(), 2 * edge_length) {
-  add_narrow_parts(boundary);
+  add_narrow_parts(boundary, wall);
   add_short_segments(boundary);
   std::vector<Vec2> centres;
   for (const Spot& s : spots_) {
@@ -29,35 +29,13 @@ Sizing::Sizing(const Boundary& boundary, double edge_length)
 }
 
 /// The width at each segment: how far straight inwards from its middle the next wall is.
-void Sizing::add_narrow_parts(const Boundary& boundary) {
+void Sizing::add_narrow_parts(const Boundary& boundary, const Wall& wall) {
   const double limit = kNarrow * target_ * (1 - 1e-9);
-  std::vector<Vec2> middles(boundary.size());
-  double longest = 0;
   for (std::size_t i = 0; i < boundary.size(); ++i) {
-    middles[i] = 0.5 * (boundary[i] + boundary[boundary.next(i)]);
-    longest = std::max(longest, boundary.segment(i));
-  }
-  // Very long segments are few; looking as far as the longest would make every query one over everything.
-  const double half = std::min(0.5 * longest, 4 * target_);
-  std::vector<int> far_reaching;
-  for (std::size_t i = 0; i < boundary.size(); ++i)
-    if (boundary.segment(i) > 2 * half) far_reaching.push_back(static_cast<int>(i));
-  grid_.fill(middles);
-  for (std::size_t i = 0; i < boundary.size(); ++i) {
-    const Vec2 from = middles[i], ray = boundary.inward(i);
-    double width = limit;
-    const auto meet = [&](int j) {
-      if (boundary.inward(j).dot(ray) > -kFacing) return;
-      const Vec2 a = boundary[j] - from, d = boundary[boundary.next(j)] - boundary[j];
-      const double slope = ray.x() * d.y() - ray.y() * d.x();
-      if (slope == 0) return;
-      const double along = (a.x() * d.y() - a.y() * d.x()) / slope, part = (a.x() * ray.y() - a.y() * ray.x()) / slope;
-      if (along > 0 && along < width && part >= 0 && part <= 1) width = along;
-    };
-    grid_.near(from + 0.5 * limit * ray, 0.5 * limit + half, meet);
-    for (const int j : far_reaching) meet(j);
+    const Vec2 middle = 0.5 * (boundary[i] + boundary[boundary.next(i)]), ray = boundary.inward(i);
+    const double width = wall.across(middle, ray, limit, kFacing);
     if (width < limit)
-      spots_.push_back({from + 0.5 * width * ray, 0.5 * width, std::max(width / kNarrow, kFinest * target_)});
+      spots_.push_back({middle + 0.5 * width * ray, 0.5 * width, std::max(width / kNarrow, kFinest * target_)});
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "boundary.hpp"
 #include "cell_grid.hpp"
+#include "wall.hpp"
 
 namespace vitrine::mesh_room {
 
@@ -13,7 +14,7 @@ namespace vitrine::mesh_room {
 /// flat triangles.
 class Sizing {
  public:
-  Sizing(const Boundary& boundary, double edge_length);
+  Sizing(const Boundary& boundary, const Wall& wall, double edge_length);
   double target() const { return target_; }
   /// Whether the target holds everywhere.
   bool uniform() const { return spots_.empty(); }
@@ -29,7 +30,7 @@ class Sizing {
   static double radius(const Spot& spot, double size);
 
  private:
-  void add_narrow_parts(const Boundary& boundary);
+  void add_narrow_parts(const Boundary& boundary, const Wall& wall);
   void add_short_segments(const Boundary& boundary);
 
   double target_, reach_ = 0;

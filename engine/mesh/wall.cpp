@@ -46,4 +46,18 @@ Wall::Nearest Wall::nearest(const Vec2& p, double limit) const {
   return {std::sqrt(best), piece.d.norm(), (p - foot).dot(normal) > 0};
 }
 
+double Wall::across(const Vec2& p, const Vec2& ray, double limit, double cosine) const {
+  double width = limit;
+  grid_.near(p + 0.5 * limit * ray, 0.5 * (limit + longest_), [&](int i) {
+    const Piece& piece = pieces_[i];
+    if (boundary_.inward(piece.segment).dot(ray) > -cosine) return;
+    const Vec2 a = piece.a - p, d = piece.d;
+    const double slope = ray.x() * d.y() - ray.y() * d.x();
+    if (slope == 0) return;
+    const double along = (a.x() * d.y() - a.y() * d.x()) / slope, part = (a.x() * ray.y() - a.y() * ray.x()) / slope;
+    if (along > 0 && along < width && part >= 0 && part <= 1) width = along;
+  });
+  return width;
+}
+
 }  // namespace vitrine::mesh_room

@@ -19,6 +19,9 @@ class Wall {
     bool inside = true;  ///< on the cloth's side of it
   };
   Nearest nearest(const Vec2& p, double limit) const;
+  /// How far from p along the unit vector `ray` the next piece is whose normal points back within the angle of that
+  /// cosine; `limit` when there is none before.
+  double across(const Vec2& p, const Vec2& ray, double limit, double cosine) const;
 
  private:
   struct Piece {
