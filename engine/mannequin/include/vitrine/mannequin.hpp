@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <string>
+#include <vector>
 
 #include "vitrine/model/body.hpp"
 #include "vitrine/model/result.hpp"
@@ -19,6 +20,13 @@ struct Measurements {
   double arm = 0.575;  ///< shoulder point to wrist
   double neck_base = 0.365;
 };
+
+/// Shop sizes: "woman-" or "man-" with xs, s, m, l, xl, xxl. Error: UNKNOWN_PRESET (64).
+Result<Measurements> preset_measurements(const std::string& name);
+
+/// One sentence for every measurement, difference or share of the height that lies outside 1-99 % of the ANSUR II
+/// survey: such a body can be built, but it may be a slip of the pen.
+std::vector<std::string> unusual_measurements(const Measurements& measurements);
 
 struct MannequinOptions {
   double surface_spacing = 0.019;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
