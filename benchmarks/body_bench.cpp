@@ -73,8 +73,10 @@ int try_people(const std::vector<Measurements>& people, double bar, bool may_ref
       verdict += verdict.empty() ? what : " " + what;
       ++misses[what];
     };
-    if (!p.sound) blame("unsound");
-    else if (p.crosses_itself) blame("self-intersecting");
+    if (!p.sound)
+      blame("unsound");
+    else if (p.crosses_itself)
+      blame("self-intersecting");
     if (!p.arms_free) blame("merged-arm");
     if (p.smallest_angle < 8) blame("sliver");
     if (p.triangles < 10000 || p.triangles > 20000) blame("triangle-count");

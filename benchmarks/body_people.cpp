@@ -35,24 +35,50 @@ struct Spread {
 
 struct Population {
   const char* sex;
-  double height, height_sd, bust, bust_sd;                        // [mm]
-  Spread heights, busts, waists, hips, legs, arms, necks;         // [mm]
-  Spread bust_waist, hip_bust, hip_waist, bust_under;             // differences [mm]
-  Spread leg_share, arm_share, neck_share;                        // of the height
+  double height, height_sd, bust, bust_sd;                 // [mm]
+  Spread heights, busts, waists, hips, legs, arms, necks;  // [mm]
+  Spread bust_waist, hip_bust, hip_waist, bust_under;      // differences [mm]
+  Spread leg_share, arm_share, neck_share;                 // of the height
 };
 
 const Population women{"woman",
-                       1628, 64, 947, 83,
-                       {1483, 1628, 1778}, {784, 947, 1160}, {665, 861, 1115}, {867, 1021, 1206},
-                       {685, 782, 888}, {478, 544, 611}, {329, 371, 423},
-                       {-49, 87, 203}, {-68, 77, 209}, {9, 164, 289}, {40, 125, 260},
-                       {0.447, 0.480, 0.515}, {0.310, 0.333, 0.361}, {0.204, 0.227, 0.260}};
+                       1628,
+                       64,
+                       947,
+                       83,
+                       {1483, 1628, 1778},
+                       {784, 947, 1160},
+                       {665, 861, 1115},
+                       {867, 1021, 1206},
+                       {685, 782, 888},
+                       {478, 544, 611},
+                       {329, 371, 423},
+                       {-49, 87, 203},
+                       {-68, 77, 209},
+                       {9, 164, 289},
+                       {40, 125, 260},
+                       {0.447, 0.480, 0.515},
+                       {0.310, 0.333, 0.361},
+                       {0.204, 0.227, 0.260}};
 const Population men{"man",
-                     1756, 69, 1059, 87,
-                     {1602, 1756, 1927}, {873, 1059, 1276}, {725, 941, 1214}, {862, 1020, 1218},
-                     {747, 846, 960}, {523, 593, 670}, {381, 435, 502},
-                     {-16, 119, 233}, {-160, -37, 71}, {-63, 82, 193}, {0, 55, 120},
-                     {0.450, 0.481, 0.519}, {0.313, 0.337, 0.363}, {0.214, 0.247, 0.286}};
+                     1756,
+                     69,
+                     1059,
+                     87,
+                     {1602, 1756, 1927},
+                     {873, 1059, 1276},
+                     {725, 941, 1214},
+                     {862, 1020, 1218},
+                     {747, 846, 960},
+                     {523, 593, 670},
+                     {381, 435, 502},
+                     {-16, 119, 233},
+                     {-160, -37, 71},
+                     {-63, 82, 193},
+                     {0, 55, 120},
+                     {0.450, 0.481, 0.519},
+                     {0.313, 0.337, 0.363},
+                     {0.214, 0.247, 0.286}};
 
 Measurements draw_one(const Population& p, Draw& draw) {
   for (;;) {
@@ -60,14 +86,13 @@ Measurements draw_one(const Population& p, Draw& draw) {
     const double waist = bust - p.bust_waist.drawn(draw), hip = bust + p.hip_bust.drawn(draw);
     const double under = bust - p.bust_under.drawn(draw), leg = height * p.leg_share.drawn(draw);
     const double arm = height * p.arm_share.drawn(draw), neck = height * p.neck_share.drawn(draw);
-    const bool usual = p.heights.holds(height) && p.busts.holds(bust) && p.waists.holds(waist) && p.hips.holds(hip) &&
-                       p.legs.holds(leg) && p.arms.holds(arm) && p.necks.holds(neck) &&
-                       p.bust_waist.holds(bust - waist) && p.hip_bust.holds(hip - bust) &&
-                       p.hip_waist.holds(hip - waist) && p.bust_under.holds(bust - under) &&
-                       p.leg_share.holds(leg / height) && p.arm_share.holds(arm / height) &&
-                       p.neck_share.holds(neck / height);
+    const bool usual =
+        p.heights.holds(height) && p.busts.holds(bust) && p.waists.holds(waist) && p.hips.holds(hip) &&
+        p.legs.holds(leg) && p.arms.holds(arm) && p.necks.holds(neck) && p.bust_waist.holds(bust - waist) &&
+        p.hip_bust.holds(hip - bust) && p.hip_waist.holds(hip - waist) && p.bust_under.holds(bust - under) &&
+        p.leg_share.holds(leg / height) && p.arm_share.holds(arm / height) && p.neck_share.holds(neck / height);
     if (!usual) continue;
-    return {p.sex,       height * 1e-3, bust * 1e-3, under * 1e-3, waist * 1e-3,
+    return {p.sex,      height * 1e-3, bust * 1e-3, under * 1e-3, waist * 1e-3,
             hip * 1e-3, leg * 1e-3,    arm * 1e-3,  neck * 1e-3};
   }
 }

@@ -118,9 +118,9 @@ BodyProbe probe_body(const Mannequin& body) {
   r.smallest_angle = 180;
   for (const Triangle& t : body.mesh.triangles)
     for (int k = 0; k < 3; ++k)
-      r.smallest_angle = std::min(r.smallest_angle,
-                                  corner_angle(body.mesh.vertices[t[k]], body.mesh.vertices[t[(k + 1) % 3]],
-                                               body.mesh.vertices[t[(k + 2) % 3]]));
+      r.smallest_angle =
+          std::min(r.smallest_angle, corner_angle(body.mesh.vertices[t[k]], body.mesh.vertices[t[(k + 1) % 3]],
+                                                  body.mesh.vertices[t[(k + 2) % 3]]));
   const auto& mark = body.landmarks;
   const Vec3 up(0, 1, 0);
   const auto level = [&](const char* name) { return trunk(mesh, mark.at(name), up); };
@@ -147,8 +147,7 @@ BodyProbe probe_body(const Mannequin& body) {
 
 FieldProbe probe_field(const TriMesh& body, const DistanceField& field, std::size_t points, double band,
                        std::uint64_t seed, double exact_share) {
-  using Tree =
-      CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
   const Mesh mesh = to_cgal(body);
   FieldProbe r;
   Tree tree(faces(mesh).first, faces(mesh).second, mesh);
@@ -159,14 +158,13 @@ FieldProbe probe_field(const TriMesh& body, const DistanceField& field, std::siz
   // Triangles by area, so that the points lie evenly about the surface.
   std::vector<double> area{0};
   for (const Triangle& t : body.triangles)
-    area.push_back(area.back() + (body.vertices[t[1]] - body.vertices[t[0]])
-                                     .cross(body.vertices[t[2]] - body.vertices[t[0]])
-                                     .norm());
+    area.push_back(area.back() +
+                   (body.vertices[t[1]] - body.vertices[t[0]]).cross(body.vertices[t[2]] - body.vertices[t[0]]).norm());
   std::size_t good = 0;
   std::vector<Vec3> places;
   while (places.size() < points) {
-    const auto i = static_cast<std::size_t>(
-        std::upper_bound(area.begin(), area.end(), uniform() * area.back()) - area.begin() - 1);
+    const auto i = static_cast<std::size_t>(std::upper_bound(area.begin(), area.end(), uniform() * area.back()) -
+                                            area.begin() - 1);
     const Triangle& t = body.triangles[std::min(i, body.triangles.size() - 1)];
     double a = uniform(), b = uniform();
     if (a + b > 1) a = 1 - a, b = 1 - b;

@@ -10,11 +10,11 @@ namespace vitrine::bench {
 
 struct BodyProbe {
   double height = 0, bust = 0, under_bust = 0, waist = 0, hip = 0, inside_leg = 0, arm = 0, neck_base = 0;  ///< [m]
-  double fullest_hip = 0;      ///< [m] largest trunk girth from crotch to 0.56 of the height
-  bool sound = false;          ///< closed, one piece, outward, finite
+  double fullest_hip = 0;  ///< [m] largest trunk girth from crotch to 0.56 of the height
+  bool sound = false;      ///< closed, one piece, outward, finite
   bool crosses_itself = true;
-  bool arms_free = false;      ///< bust section does not hold an arm
-  double smallest_angle = 0;   ///< [degree] of any triangle's corner
+  bool arms_free = false;     ///< bust section does not hold an arm
+  double smallest_angle = 0;  ///< [degree] of any triangle's corner
   std::size_t triangles = 0;
 };
 
@@ -24,9 +24,9 @@ BodyProbe probe_body(const Mannequin& body);
 
 struct FieldProbe {
   std::size_t points = 0, wrong_signs = 0;
-  double within_half_mm = 0;   ///< [-] share
-  double worst = 0;            ///< [m]
-  double exact_seconds = 0;    ///< computing every voxel of the field's grid by AABB queries
+  double within_half_mm = 0;  ///< [-] share
+  double worst = 0;           ///< [m]
+  double exact_seconds = 0;   ///< computing every voxel of the field's grid by AABB queries
   double lookups_per_second = 0;
 };
 

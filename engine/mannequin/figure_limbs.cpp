@@ -123,16 +123,16 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
 void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknowns& u, double arm_angle) {
   const double h = m.height;
   const double biceps = 0.92 * plan.biceps_girth, forearm = 0.95 * plan.forearm_girth, wrist_girth = plan.wrist_girth;
-  const double shoulder = 1.10 * biceps / (2 * pi);
+  const double shoulder = shoulder_radius(plan);
   const double y = plan.acromion_height - shoulder;
-  arm_root = Vec3(0.5 * plan.biacromial + (woman_ ? -0.004 : 0.004) * h, y, -0.004 * h);
+  arm_root = Vec3(shoulder_half(plan), y, -0.004 * h);
   // The arm must clear the chest at the bust, where the tape and the garment pass: first it moves out, then it lifts.
-  const double clear = chest_half_ + 0.016;
+  const double clear = chest_half_ + arm_gap;
   const auto inner = [&](double angle) {
     return arm_root.x() + (y - bust_height) * std::tan(angle) - 1.04 * shoulder / std::cos(angle);
   };
   double angle = arm_angle;
-  if (inner(angle) < clear) arm_root.x() += std::min(0.5 * (clear - inner(angle)), 0.03 * h);
+  if (inner(angle) < clear) arm_root.x() += std::min(0.5 * (clear - inner(angle)), shoulder_shift * h);
   while (inner(angle) < clear && angle < 65 * pi / 180) angle += 0.5 * pi / 180;
   arm_axis = Vec3(std::sin(angle), -std::cos(angle), 0);
   arm_across = Vec3(std::cos(angle), std::sin(angle), 0);
@@ -186,9 +186,9 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   }
   hand_ = Loft(g, wrist, along, thin, wide, 0.006, 0.005);
   thumb_.a = wrist + 0.14 * hand * along + 0.45 * palm * wide;
-  thumb_.b = wrist + 0.56 * hand * along + 1.18 * palm * wide - 0.10 * hand * thin;
-  thumb_.ra = 0.30 * palm;
-  thumb_.rb = 0.24 * palm;
+  thumb_.b = wrist + 0.50 * hand * along + 1.05 * palm * wide - 0.06 * hand * thin;
+  thumb_.ra = 0.36 * palm;
+  thumb_.rb = 0.30 * palm;
 
   // Where the arm's lower edge runs into the chest's side.
   const double down = (chest_half_ - inner(angle) + (y - bust_height) * std::tan(angle)) / std::tan(angle);
