@@ -231,6 +231,7 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
   Measurements aim = measurements;
   Mannequin result;
   result.source = "built-in " + measurements.sex;
+  result.warnings = unusual_measurements(measurements);
   // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
   // mesh of the first follows the solid.
   for (int round = 0; round < 5; ++round) {

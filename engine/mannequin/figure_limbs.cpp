@@ -132,7 +132,7 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
     return arm_root.x() + (y - bust_height) * std::tan(angle) - 1.04 * shoulder / std::cos(angle);
   };
   double angle = arm_angle;
-  if (inner(angle) < clear) arm_root.x() += std::min(0.5 * (clear - inner(angle)), shoulder_shift * h);
+  if (inner(angle) < clear) arm_root.x() += std::min(0.6 * (clear - inner(angle)), shoulder_shift * h);
   while (inner(angle) < clear && angle < 65 * pi / 180) angle += 0.5 * pi / 180;
   arm_axis = Vec3(std::sin(angle), -std::cos(angle), 0);
   arm_across = Vec3(std::cos(angle), std::sin(angle), 0);

@@ -44,7 +44,7 @@ double Figure::highest_bust(const Measurements& m, const BodyPlan& plan) const {
   constexpr double steepest = 50 * std::numbers::pi / 180;
   const double radius = shoulder_radius(plan), chest_half = 0.180 * m.bust;
   const double outside = chest_half + arm_gap + 1.04 * radius / std::cos(steepest) - shoulder_half(plan);
-  return plan.acromion_height - radius - (outside - shoulder_shift * height_) / std::tan(steepest);
+  return plan.acromion_height - radius - (outside - 0.5 * shoulder_shift * height_) / std::tan(steepest);
 }
 
 Figure::Figure(const Measurements& m, const BodyPlan& plan, double arm_angle, const Unknowns& u) {
