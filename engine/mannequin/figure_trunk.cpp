@@ -67,7 +67,7 @@ Figure::Figure(const Measurements& m, const BodyPlan& plan, double arm_angle, co
 
 void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unknowns& u) {
   const double h = m.height;
-  const double chest_girth = u.under_bust + (woman_ ? 0.45 : 1.0) * u.bust;
+  const double chest_girth = u.under_bust + (woman_ ? 0.30 : 1.0) * u.bust;
   const double ratio_hip = depth_ratio(woman_ ? 0.655 : 0.70, u.hip, (woman_ ? 0.60 : 0.57) * h);
   const double ratio_waist = depth_ratio(woman_ ? 0.70 : 0.735, u.waist, (woman_ ? 0.47 : 0.50) * h);
   const double ratio_ribs = depth_ratio(woman_ ? 0.72 : 0.70, u.under_bust, (woman_ ? 0.49 : 0.55) * h, 0.16);
