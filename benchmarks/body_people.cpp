@@ -106,13 +106,17 @@ std::vector<Measurements> draw_people(int count, std::uint64_t seed) {
   return people;
 }
 
-std::vector<Measurements> corner_people(const char* sex) {
+std::vector<Measurements> corner_people(const char* sex, bool accepted) {
   std::vector<Measurements> people;
   for (unsigned corner = 0; corner < 256; ++corner) {
     const auto end = [corner](int bit, double low, double high) { return (corner >> bit & 1) != 0 ? high : low; };
-    const double height = end(0, 1.3, 2.2);
-    people.push_back({sex, height, end(1, 0.65, 1.6), end(2, 0.56, 1.45), end(3, 0.5, 1.6), end(4, 0.7, 1.65),
-                      end(5, 0.38, 0.56) * height, end(6, 0.25, 0.42) * height, end(7, 0.27, 0.62)});
+    const double height = accepted ? end(0, 1.4, 2.1) : end(0, 1.3, 2.2);
+    people.push_back(
+        {sex, height, accepted ? end(1, 0.7, 1.5) : end(1, 0.65, 1.6), accepted ? end(2, 0.6, 1.3) : end(2, 0.56, 1.45),
+         accepted ? end(3, 0.55, 1.45) : end(3, 0.5, 1.6), accepted ? end(4, 0.78, 1.5) : end(4, 0.7, 1.65),
+         (accepted ? end(5, 0.41, 0.53) : end(5, 0.38, 0.56)) * height,
+         (accepted ? end(6, 0.28, 0.39) : end(6, 0.25, 0.42)) * height,
+         accepted ? end(7, 0.30, 0.56) : end(7, 0.27, 0.62)});
   }
   return people;
 }

@@ -12,7 +12,8 @@ namespace vitrine::bench {
 /// measurement, difference and ratio within its 1-99 % range. The same seed gives the same people.
 std::vector<Measurements> draw_people(int count, std::uint64_t seed);
 
-/// All 2^8 corners of the stability range, for one sex.
-std::vector<Measurements> corner_people(const char* sex);
+/// All 2^8 corners for one sex: of the range that the tool accepts for each measurement alone, or of the wider one that
+/// it has to survive.
+std::vector<Measurements> corner_people(const char* sex, bool accepted);
 
 }  // namespace vitrine::bench

@@ -24,10 +24,12 @@ BodyProbe probe_body(const Mannequin& body);
 
 struct FieldProbe {
   std::size_t points = 0, wrong_signs = 0;
-  double within_half_mm = 0;  ///< [-] share
-  double worst = 0;           ///< [m]
-  double exact_seconds = 0;   ///< computing every voxel of the field's grid by AABB queries
-  double lookups_per_second = 0;
+  double within_half_mm = 0;             ///< [-] share
+  double worst = 0;                      ///< [m]
+  double exact_seconds = 0;              ///< computing every voxel of the field's grid by AABB queries
+  double deepest_wrong_sign = 0;         ///< [m] from the surface
+  double lookups_per_second = 0;         ///< with gradient; places along the surface, as a cloth's nodes lie
+  double random_lookups_per_second = 0;  ///< places all over the body
 };
 
 /// The field against CGAL's AABB tree at random points within `band` [m] of the surface. `exact_share` of the grid's

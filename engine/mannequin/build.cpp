@@ -78,7 +78,7 @@ Vec8 solve(const Measurements& m, const Measurements& aim, const BodyPlan& plan,
   // Inverse of d(tape) / d(unknown); the bust tape goes around under-bust plus bust.
   Eigen::Matrix<double, 8, 8> inverse = Eigen::Matrix<double, 8, 8>::Identity();
   inverse(1, 0) = -1;
-  for (int round = 0; round < 16 && miss.cwiseAbs().maxCoeff() > 1e-4; ++round) {
+  for (int round = 0; round < 16 && miss.cwiseAbs().maxCoeff() > 2e-4; ++round) {
     const Vec8 step = (inverse * miss).cwiseMax(-0.05).cwiseMin(0.05);
     const Vec8 next = x + step, left = missed(next);
     if (!left.allFinite()) break;
@@ -241,8 +241,8 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
     const body::Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
                                 [&](const Vec3& p) { return spacing * figure.detail(p); }};
     if (round == 0) {
-      result.mesh = body::march(surface.distance, figure.low, figure.high, 0.5 * options.surface_spacing, 0.008);
-      body::remesh(result.mesh, surface, 5);
+      result.mesh = body::march(surface.distance, figure.low, figure.high, 0.5 * options.surface_spacing, -0.010);
+      body::remesh(result.mesh, surface, 4);
     } else {
       body::settle(result.mesh, surface);
     }

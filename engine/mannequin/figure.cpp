@@ -109,7 +109,7 @@ Vec3 Figure::exit(const Vec3& from, const Vec3& direction) const {
 }
 
 double Figure::tape(const Vec3& centre, const Vec3& u, const Vec3& v) const {
-  constexpr int rays = 96;
+  constexpr int rays = 64;
   std::vector<Vec2> points;
   points.reserve(rays);
   for (int i = 0; i < rays; ++i) {
@@ -132,7 +132,7 @@ double Figure::detail(const Vec3& p) const {
   const double crotch = 1.6 - (p - Vec3(0, crotch_y_, 0)).norm() / 0.05;
   const double armpit = 1.6 - (side - armpit_).norm() / 0.05;
   const double fine = std::max({crotch, armpit, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
-  return 1 - std::max(0.42 * std::clamp(fine, 0.0, 1.0), 0.54 * std::clamp(past_wrist / 0.05, 0.0, 1.0));
+  return 1 - std::max(0.42 * std::clamp(fine, 0.0, 1.0), 0.48 * std::clamp(past_wrist / 0.05, 0.0, 1.0));
 }
 
 double Figure::crotch_height() const {
