@@ -234,6 +234,8 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
   result.warnings = unusual_measurements(measurements);
   // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
   // mesh of the first follows the solid.
+  body::Vec8 left = body::Vec8::Zero();  ///< what the mesh still misses [m]
+  double worst = 0;
   for (int round = 0; round < 5; ++round) {
     const body::Vec8 miss = body::solve(measurements, aim, plan, angle, unknowns);
     if (!(miss.cwiseAbs().maxCoeff() < 3e-3)) return body::impossible(measurements, miss);
@@ -249,20 +251,20 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
     body::stand(result.mesh, measurements.height);
     body::describe(figure, measurements, plan, result);
     body::measure(figure, result);
-    double worst = 0;
-    const auto correct = [&](double Measurements::*size, const char* name) {
-      const double miss = measurements.*size - result.girths.at(name);
-      worst = std::max(worst, std::abs(miss));
-      aim.*size += std::clamp(miss, -0.01, 0.01);
+    const auto correct = [&](Eigen::Index row, double Measurements::*size, const char* name) {
+      left[row] = measurements.*size - result.girths.at(name);
+      aim.*size += std::clamp(left[row], -0.01, 0.01);
     };
-    correct(&Measurements::bust, "bust");
-    correct(&Measurements::under_bust, "under_bust");
-    correct(&Measurements::waist, "waist");
-    correct(&Measurements::hip, "hip");
-    correct(&Measurements::neck_base, "neck_base");
-    correct(&Measurements::inside_leg, "inside_leg");
+    correct(0, &Measurements::under_bust, "under_bust");
+    correct(1, &Measurements::bust, "bust");
+    correct(2, &Measurements::waist, "waist");
+    correct(3, &Measurements::hip, "hip");
+    correct(4, &Measurements::neck_base, "neck_base");
+    correct(5, &Measurements::inside_leg, "inside_leg");
+    worst = left.cwiseAbs().maxCoeff();
     if (worst < 4e-4) break;
   }
+  if (worst > 5e-3) return body::impossible(measurements, left);
   if (const body::MeshState state = body::inspect(result.mesh); !state.closed() || state.parts != 1)
     return Error{Cause::internal, "BODY_NOT_CLOSED",
                  "The built-in body did not close: " + std::to_string(state.open_edges) + " open, " +

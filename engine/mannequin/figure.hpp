@@ -65,10 +65,10 @@ class Figure {
   void make_leg(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
   void make_arm(const Measurements& m, const BodyPlan& plan, const Unknowns& u, double arm_angle);
 
-  static constexpr double arm_gap = 0.024;        ///< [m] between arm and chest at the bust
+  static constexpr double arm_gap = 0.024;         ///< [m] between arm and chest at the bust
   static constexpr double shoulder_shift = 0.025;  ///< [-] of the height: how far a wide chest pushes the arms out
-  double crotch_y_ = 0;                           ///< [m] height asked for
-  Vec3 armpit_ = Vec3::Zero();                    ///< about where chest and arm meet
+  double crotch_y_ = 0;                            ///< [m] height asked for
+  Vec3 armpit_ = Vec3::Zero();                     ///< about where chest and arm meet
   double height_ = 0, hip_half_ = 0, chest_half_ = 0;
   bool woman_ = true;
   double arm_blend_ = 0, arm_free_ = 0;  ///< blend at the shoulder, and the way along the arm over which it fades

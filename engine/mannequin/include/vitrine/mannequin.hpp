@@ -42,9 +42,9 @@ struct VoxelOptions {
 /// work, BAD_OPTION (64).
 Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options = {});
 
-/// Any watertight OBJ, GLB or PLY in metres, +Y up (guessed: a height of 140-220 is centimetres, 1400-2200
-/// millimetres); landmarks and girths are found on the mesh. Errors: MISSING_FILE (66); NOT_A_MESH,
-/// NOT_WATERTIGHT, NOT_A_BODY, TOO_LARGE (65).
+/// Any watertight OBJ, GLB, PLY or DAE, front towards +Z (or standing along +Z, front towards -Y). Metres; a height of
+/// 140-220 is taken for centimetres, 1400-2200 for millimetres. What was guessed is in `warnings`. Landmarks and girths
+/// are found on the mesh. Errors: MISSING_FILE (66); NOT_A_MESH, NOT_WATERTIGHT, NOT_A_BODY, TOO_LARGE (65).
 Result<Mannequin> import_mannequin(const std::string& path);
 
 /// Signed distance on voxels around the body (paper III.C). Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
