@@ -154,7 +154,14 @@ int main(int argc, char** argv) {
   app.add_flag("--field", fields, "The voxel field against exact distances");
   app.add_option("--csv", folder, "Existing folder for people.csv, corners.csv, accepted_corners.csv, field.csv")
       ->capture_default_str();
+  std::string sheet;
+  app.add_option("--sheet", sheet, "Write a JPEG of five bodies, front, side and back, and nothing else");
   CLI11_PARSE(app, argc, argv);
+  if (!sheet.empty()) {
+    const auto error = draw_sheet(sheet);
+    if (error) std::fprintf(stderr, "%s\n", error->message.c_str());
+    return error ? error->exit_code() : 0;
+  }
   int failed = 0;
   if (people > 0) failed += try_people(draw_people(people, seed), 2e-3, false, folder + "/people.csv");
   if (corners) {

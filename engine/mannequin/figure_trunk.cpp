@@ -134,7 +134,7 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   trunk_ = Loft(s, Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), 0.010 * h, 0.012 * h);
 
   // On a man the same shape, shallow and broad, makes the chest muscles.
-  breast = woman_ ? std::max(0.0, 0.26 * u.bust / (1 + std::max(u.bust, 0.0) / 0.30)) : 0.003 * h;
+  breast = woman_ ? std::max(0.0, 0.26 * u.bust / (1 + std::max(u.bust, 0.0) / 0.80)) : 0.003 * h;
   bust_apart = (woman_ ? 0.53 : 0.48) * chest.a;
   const double share = bust_apart / chest.a;
   const double wall = chest.z + chest.front * std::pow(1 - std::pow(share, chest.n_front), 1 / chest.n_front);
