@@ -64,10 +64,13 @@ Error implausible(const std::string& name, double value, double low, double high
 
 }  // namespace
 
+double navel_girth(const Measurements& m) {
+  return m.waist + std::max(0.0, (m.sex == "woman" ? 0.22 : 0.12) * (m.hip - m.waist));
+}
+
 BodyPlan plan_body(const Measurements& m) {
   const bool woman = m.sex == "woman";
-  // The survey took the waist at the navel, where it is larger than at the natural waist used here.
-  const double navel = m.waist + std::max(0.0, (woman ? 0.22 : 0.12) * (m.hip - m.waist));
+  const double navel = navel_girth(m);
   const double input[8] = {1,           m.height * 1e3,     m.bust * 1e3, navel * 1e3,
                            m.hip * 1e3, m.inside_leg * 1e3, m.arm * 1e3,  m.neck_base * 1e3};
   BodyPlan plan;

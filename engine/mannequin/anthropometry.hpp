@@ -16,6 +16,9 @@ struct BodyPlan {
   double waist_height() const { return 0.5 * (rib_height + iliac_height); }  ///< ISO 8559-1: midway rib to iliac crest
 };
 
+/// Girth at the navel, where the survey took the waist [m]: more than the natural waist of a body whose hips are wider.
+double navel_girth(const Measurements& m);
+
 BodyPlan plan_body(const Measurements& m);
 
 /// Refuses what no mannequin can be: IMPLAUSIBLE_MEASUREMENTS naming the measurement and the range that would work.

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "figure.hpp"
 #include "marching.hpp"
@@ -42,32 +43,56 @@ Unknowns first_guess(const Measurements& m) {
   return u;
 }
 
-/// Damped fixed-point rounds on the scalars that the tape answers almost one to one, until the solid built from `m` has
-/// the girths in `aim`. Gives the worst error [m].
-double solve(const Measurements& m, const Measurements& aim, const BodyPlan& plan, double arm_angle, Unknowns& u) {
-  double worst = 0;
-  for (int round = 0; round < 14; ++round) {
-    const Figure f(m, plan, arm_angle, u);
+using Vec8 = Eigen::Matrix<double, 8, 1>;
+
+Vec8 pack(const Unknowns& u) {
+  Vec8 x;
+  x << u.under_bust, u.bust, u.waist, u.hip, u.neck, u.crotch, u.upper_arm, u.forearm;
+  return x;
+}
+
+Unknowns unpack(const Vec8& x) {
+  return {.under_bust = x[0],
+          .waist = x[2],
+          .hip = x[3],
+          .bust = x[1],
+          .neck = x[4],
+          .crotch = x[5],
+          .upper_arm = x[6],
+          .forearm = x[7]};
+}
+
+/// Turns the unknowns until the solid built from `m` has the girths in `aim`: Broyden's method, starting from what the
+/// tapes would answer on a bare loft. Gives what is left to miss [m], in the order of `pack`.
+Vec8 solve(const Measurements& m, const Measurements& aim, const BodyPlan& plan, double arm_angle, Unknowns& u) {
+  const auto missed = [&](const Vec8& x) {
+    const Figure f(m, plan, arm_angle, unpack(x));
     const Tapes t = read_tapes(f);
-    const double crotch = f.crotch_height();
-    const Vec3 acromion = acromion_of(f);
-    const double upper = (f.elbow - acromion).norm(), fore = (f.wrist - f.elbow).norm();
-    const double miss[] = {
-        aim.under_bust - t.under_bust, aim.bust - t.bust,     aim.waist - t.waist,   aim.hip - t.hip,
-        aim.neck_base - t.neck,        m.inside_leg - crotch, 0.563 * m.arm - upper, 0.437 * m.arm - fore};
-    worst = 0;
-    for (double x : miss) worst = std::max(worst, std::abs(x));
-    if (worst < 2e-4) break;
-    u.under_bust += 0.85 * miss[0];
-    u.bust += 0.85 * (miss[1] - miss[0]);
-    u.waist += 0.85 * miss[2];
-    u.hip += 0.85 * miss[3];
-    u.neck += 0.85 * miss[4];
-    u.crotch += 0.85 * miss[5];
-    u.upper_arm += 0.9 * miss[6];
-    u.forearm += 0.9 * miss[7];
+    const double upper = (f.elbow - acromion_of(f)).norm(), fore = (f.wrist - f.elbow).norm();
+    Vec8 miss;
+    miss << aim.under_bust - t.under_bust, aim.bust - t.bust, aim.waist - t.waist, aim.hip - t.hip,
+        aim.neck_base - t.neck, aim.inside_leg - f.crotch_height(), 0.563 * m.arm - upper, 0.437 * m.arm - fore;
+    return miss;
+  };
+  Vec8 x = pack(u), miss = missed(x), best = miss;
+  // Inverse of d(tape) / d(unknown); the bust tape goes around under-bust plus bust.
+  Eigen::Matrix<double, 8, 8> inverse = Eigen::Matrix<double, 8, 8>::Identity();
+  inverse(1, 0) = -1;
+  for (int round = 0; round < 16 && miss.cwiseAbs().maxCoeff() > 2e-4; ++round) {
+    const Vec8 step = (inverse * miss).cwiseMax(-0.05).cwiseMin(0.05);
+    const Vec8 next = x + step, left = missed(next);
+    if (!left.allFinite()) break;
+    const Vec8 change = miss - left, answered = inverse * change;
+    const double weight = step.dot(answered);
+    if (std::abs(weight) > 1e-12) inverse += (step - answered) * (step.transpose() * inverse) / weight;
+    x = next;
+    miss = left;
+    if (miss.cwiseAbs().maxCoeff() < best.cwiseAbs().maxCoeff()) {
+      best = miss;
+      u = unpack(x);
+    }
   }
-  return worst;
+  return best;
 }
 
 double widest_tape(const TriMesh& mesh, const Vec3& at, const Vec3& normal) {
@@ -75,6 +100,15 @@ double widest_tape(const TriMesh& mesh, const Vec3& at, const Vec3& normal) {
   for (const Ring& ring : slice(mesh, at, normal))
     if (ring.holds(at)) tape = std::max(tape, ring.tape);
   return tape;
+}
+
+/// The lowest point of the trunk between the legs: the section in the middle plane holds no leg.
+Vec3 crotch_of(const TriMesh& mesh, const Vec3& inside) {
+  Vec3 lowest = inside;
+  for (const Ring& ring : slice(mesh, inside, Vec3::UnitX()))
+    for (const Vec3& p : ring.points)
+      if (p.y() < lowest.y()) lowest = p;
+  return lowest;
 }
 
 /// Takes out the last fraction of a millimetre of meshing: soles on y = 0, crown at the height.
@@ -128,7 +162,7 @@ void describe(const Figure& f, const Measurements& m, const BodyPlan& plan, Mann
   set_pair(body, "biceps", biceps);
   set_pair(body, "elbow", f.elbow);
   set_pair(body, "wrist", f.wrist);
-  mark["crotch"] = Vec3(0, m.inside_leg, f.crotch_depth());
+  mark["crotch"] = crotch_of(body.mesh, {0, f.hip_height, 0});
   set_pair(body, "knee", f.leg_centre(f.knee_height));
   set_pair(body, "ankle", f.leg_centre(f.ankle_height));
   mark["crown"] = f.exit(f.head_centre(), Vec3::UnitY());
@@ -156,6 +190,29 @@ void measure(const Figure& f, Mannequin& body) {
                  (mark.at("wrist_right") - mark.at("elbow_right")).norm();
 }
 
+/// Names the measurement that could not be reached, and the nearest that can, as far as the solver came.
+Error impossible(const Measurements& m, const Vec8& miss) {
+  const struct {
+    const char* name;
+    double value;
+  } sizes[] = {
+      {"under_bust", m.under_bust}, {"bust", m.bust}, {"waist", m.waist}, {"hip", m.hip}, {"neck_base", m.neck_base},
+      {"inside_leg", m.inside_leg}, {"arm", m.arm},   {"arm", m.arm}};
+  Eigen::Index worst = 0;
+  miss.cwiseAbs().maxCoeff(&worst);
+  const double asked = sizes[worst].value * 1e3, reached = asked - miss[worst] * 1e3;
+  char text[240];
+  if (std::isfinite(reached))
+    std::snprintf(text, sizeof text,
+                  "No body with these other measurements has a %s of %.0f mm: %s %.0f mm works, %s does not.",
+                  sizes[worst].name, asked, miss[worst] > 0 ? "up to about" : "from about", reached,
+                  miss[worst] > 0 ? "more" : "less");
+  else
+    std::snprintf(text, sizeof text, "No body has these measurements together.");
+  return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", text,
+               "Check bust, under_bust, waist, hip, inside_leg and neck_base against each other.", ""};
+}
+
 }  // namespace
 }  // namespace body
 
@@ -168,42 +225,51 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
   const body::BodyPlan plan = body::plan_body(measurements);
   const double angle = options.arm_angle_deg * 0.017453292519943295;
   body::Unknowns unknowns = body::first_guess(measurements);
+  // Large bodies take larger triangles, so that their number stays.
+  const double skin = measurements.height * (measurements.bust + measurements.waist + measurements.hip);
+  const double spacing = options.surface_spacing * std::clamp(std::sqrt(skin / 4.4), 1.0, 1.5);
   Measurements aim = measurements;
   Mannequin result;
   result.source = "built-in " + measurements.sex;
-  // Triangles cut corners, so the mesh reads a few millimetres off the solid: the second pass aims that much aside.
-  for (int pass = 0; pass < 2; ++pass) {
-    if (body::solve(measurements, aim, plan, angle, unknowns) > 3e-3)
-      return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS",
-                   "No body was found that has these measurements together.",
-                   "Check bust, under_bust, waist, hip, inside_leg and neck_base against each other.", ""};
+  result.warnings = unusual_measurements(measurements);
+  // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
+  // mesh of the first follows the solid.
+  body::Vec8 left = body::Vec8::Zero();  ///< what the mesh still misses [m]
+  double worst = 0;
+  for (int round = 0; round < 5; ++round) {
+    const body::Vec8 miss = body::solve(measurements, aim, plan, angle, unknowns);
+    if (!(miss.cwiseAbs().maxCoeff() < 3e-3)) return body::impossible(measurements, miss);
     const body::Figure figure(measurements, plan, angle, unknowns);
     const body::Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
-                                [&figure](const Vec3& p) { return figure.gradient(p); },
-                                [&](const Vec3& p) { return options.surface_spacing * figure.detail(p); }};
-    // Marched finer than asked, so that no thumb falls between the grid lines; the remesher takes the surplus out.
-    result.mesh =
-        body::march(surface.distance, figure.low, figure.high, std::min(0.009, 0.6 * options.surface_spacing));
-    body::remesh(result.mesh, surface, 5);
+                                [&](const Vec3& p) { return spacing * figure.detail(p); }};
+    if (round == 0) {
+      result.mesh = body::march(surface.distance, figure.low, figure.high, 0.5 * options.surface_spacing, -0.010);
+      body::remesh(result.mesh, surface, 4);
+    } else {
+      body::settle(result.mesh, surface);
+    }
     body::stand(result.mesh, measurements.height);
-    if (const body::MeshState state = body::inspect(result.mesh); !state.closed() || state.parts != 1)
-      return Error{Cause::internal, "BODY_NOT_CLOSED", "The built-in body did not close.",
-                   "Report the eight measurements; slightly different ones will work.", ""};
     body::describe(figure, measurements, plan, result);
     body::measure(figure, result);
-    double worst = 0;
-    const auto correct = [&](double Measurements::*size, const char* name) {
-      const double miss = measurements.*size - result.girths.at(name);
-      worst = std::max(worst, std::abs(miss));
-      aim.*size += std::clamp(miss, -0.01, 0.01);
+    const auto correct = [&](Eigen::Index row, double Measurements::*size, const char* name) {
+      left[row] = measurements.*size - result.girths.at(name);
+      aim.*size += std::clamp(left[row], -0.01, 0.01);
     };
-    correct(&Measurements::bust, "bust");
-    correct(&Measurements::under_bust, "under_bust");
-    correct(&Measurements::waist, "waist");
-    correct(&Measurements::hip, "hip");
-    correct(&Measurements::neck_base, "neck_base");
-    if (worst < 1e-3) break;
+    correct(0, &Measurements::under_bust, "under_bust");
+    correct(1, &Measurements::bust, "bust");
+    correct(2, &Measurements::waist, "waist");
+    correct(3, &Measurements::hip, "hip");
+    correct(4, &Measurements::neck_base, "neck_base");
+    correct(5, &Measurements::inside_leg, "inside_leg");
+    worst = left.cwiseAbs().maxCoeff();
+    if (worst < 4e-4) break;
   }
+  if (worst > 5e-3) return body::impossible(measurements, left);
+  if (const body::MeshState state = body::inspect(result.mesh); !state.closed() || state.parts != 1)
+    return Error{Cause::internal, "BODY_NOT_CLOSED",
+                 "The built-in body did not close: " + std::to_string(state.open_edges) + " open, " +
+                     std::to_string(state.crowded_edges) + " crowded edges, " + std::to_string(state.parts) + " parts.",
+                 "Report the eight measurements; slightly different ones will work.", ""};
   return result;
 }
 

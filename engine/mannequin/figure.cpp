@@ -65,42 +65,31 @@ double Figure::arm_side(const Vec3& p) const {
 }
 
 double Figure::distance(const Vec3& p) const {
-  const Vec3 q = mirrored(p);
-  double d = beyond(trunk_, p, 0.12) ? far_away : trunk_.distance(p);
+  // The body is symmetric: `near` is the point on the right, `far` its mirror image, which only parts that reach the
+  // middle have to look at.
+  const Vec3 near(std::abs(p.x()), p.y(), p.z()), far = mirrored(near);
+  double d = beyond(trunk_, near, 0.12) ? far_away : trunk_.distance(near);
   if (breast > 1e-4 && p.z() > 0 && std::abs(p.y() - bust_height) < 0.25)
-    d = smooth_min(d, smooth_min(blob(breast_, p), blob(breast_, q), 0.04), 0.05 + 0.9 * breast);
+    d = smooth_min(d, smooth_min(blob(breast_, near), blob(breast_, far), 0.04), 0.05 + 0.9 * breast);
   if (p.z() < 0.05 && std::abs(p.y() - hip_height) < 0.25)
-    d = smooth_min(d, smooth_min(blob(seat_, p), blob(seat_, q), 0.05), 0.06);
+    d = smooth_min(d, smooth_min(blob(seat_, near), blob(seat_, far), 0.05), 0.06);
   if (p.y() < hip_height + 0.2) {
-    const double legs = smooth_min(leg_side(p), leg_side(q), 0.012);
+    double legs = leg_side(near);
+    if (near.x() < 0.06) legs = smooth_min(legs, leg_side(far), 0.012);
     d = smooth_min(d, legs, 0.05);
   }
   if (p.y() > bust_height - 0.05) {
-    d = smooth_min(d, smooth_min(cone(girdle_, p), cone(girdle_, q), 0.03), 0.05);
-    if (!beyond(neck_, p, 0.1)) d = smooth_min(d, neck_.distance(p), 0.035);
-    const double skull = head(p);
-    d = smooth_min(d, skull, 0.03);
+    d = smooth_min(d, smooth_min(cone(girdle_, near), cone(girdle_, far), 0.03), 0.05);
+    if (!beyond(neck_, near, 0.1)) d = smooth_min(d, neck_.distance(near), 0.035);
+    d = smooth_min(d, head(near), 0.03);
   }
-  for (const Vec3& side : {p, q}) {
-    const double arm = arm_side(side);
-    if (arm >= far_away) continue;
+  if (const double arm = arm_side(near); arm < far_away) {
     // A wide blend makes the shoulder; further down the same blend would glue arm and trunk together.
-    const double t = std::clamp((side - arm_root).dot(arm_axis) / arm_free_, 0.0, 1.0);
+    const double t = std::clamp((near - arm_root).dot(arm_axis) / arm_free_, 0.0, 1.0);
     const double fade = 1 - t * t * (3 - 2 * t);
     d = smooth_min(d, arm, 0.006 + (arm_blend_ - 0.006) * fade);
   }
   return d;
-}
-
-Vec3 Figure::gradient(const Vec3& p) const {
-  constexpr double h = 5e-4;
-  Vec3 g;
-  for (int a = 0; a < 3; ++a) {
-    Vec3 e = Vec3::Zero();
-    e[a] = h;
-    g[a] = (distance(p + e) - distance(p - e)) / (2 * h);
-  }
-  return g;
 }
 
 Vec3 Figure::exit(const Vec3& from, const Vec3& direction) const {
@@ -120,7 +109,7 @@ Vec3 Figure::exit(const Vec3& from, const Vec3& direction) const {
 }
 
 double Figure::tape(const Vec3& centre, const Vec3& u, const Vec3& v) const {
-  constexpr int rays = 96;
+  constexpr int rays = 64;
   std::vector<Vec2> points;
   points.reserve(rays);
   for (int i = 0; i < rays; ++i) {
@@ -142,9 +131,8 @@ double Figure::detail(const Vec3& p) const {
   // Tight corners, too: crotch and armpits, where long edges would cut through the air.
   const double crotch = 1.6 - (p - Vec3(0, crotch_y_, 0)).norm() / 0.05;
   const double armpit = 1.6 - (side - armpit_).norm() / 0.05;
-  const double fine =
-      std::max({crotch, armpit, past_wrist / 0.05, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
-  return 1 - 0.42 * std::clamp(fine, 0.0, 1.0);
+  const double fine = std::max({crotch, armpit, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
+  return 1 - std::max(0.42 * std::clamp(fine, 0.0, 1.0), 0.48 * std::clamp(past_wrist / 0.05, 0.0, 1.0));
 }
 
 double Figure::crotch_height() const {

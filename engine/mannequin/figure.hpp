@@ -23,14 +23,12 @@ class Figure {
 
   /// First-order signed distance [m], negative inside; exact only on the surface.
   double distance(const Vec3& p) const;
-  Vec3 gradient(const Vec3& p) const;
   /// First surface point on the ray from the inside point `from`; `from` itself if it is outside.
   Vec3 exit(const Vec3& from, const Vec3& direction) const;
   /// Hull perimeter of the section through `centre`, spanned by the unit vectors u and v [m].
   double tape(const Vec3& centre, const Vec3& u, const Vec3& v) const;
   /// Height of the lowest point of the trunk between the legs.
   double crotch_height() const;
-  double crotch_depth() const { return crotch_z_; }
   Vec3 leg_centre(double height) const;  ///< middle of the right leg
   /// How fine the triangles should be here: 1 on the trunk, less on hands, feet and head.
   double detail(const Vec3& p) const;
@@ -59,14 +57,18 @@ class Figure {
   double head(const Vec3& p) const;
   double leg_side(const Vec3& p) const;
   double arm_side(const Vec3& p) const;
+  double shoulder_radius(const BodyPlan& plan) const;
+  double shoulder_half(const BodyPlan& plan) const;  ///< [m] from the middle to the arm's root
+  double highest_bust(const Measurements& m, const BodyPlan& plan) const;
   void make_trunk(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
   void make_head(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
   void make_leg(const Measurements& m, const BodyPlan& plan, const Unknowns& u);
   void make_arm(const Measurements& m, const BodyPlan& plan, const Unknowns& u, double arm_angle);
 
-  double crotch_z_ = -0.01;     ///< [m] depth at which the crotch is measured
-  double crotch_y_ = 0;         ///< [m] height asked for
-  Vec3 armpit_ = Vec3::Zero();  ///< about where chest and arm meet
+  static constexpr double arm_gap = 0.024;         ///< [m] between arm and chest at the bust
+  static constexpr double shoulder_shift = 0.025;  ///< [-] of the height: how far a wide chest pushes the arms out
+  double crotch_y_ = 0;                            ///< [m] height asked for
+  Vec3 armpit_ = Vec3::Zero();                     ///< about where chest and arm meet
   double height_ = 0, hip_half_ = 0, chest_half_ = 0;
   bool woman_ = true;
   double arm_blend_ = 0, arm_free_ = 0;  ///< blend at the shoulder, and the way along the arm over which it fades

@@ -36,7 +36,7 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
   Section thigh = station(crotch - 0.012 * h, 0, 0.004 * h, plan.thigh_girth, ratio, 0.5);
   // Thighs keep apart, and do not stand out further than the hips.
   const double gap = 0.012;
-  const double widest = std::max(0.5 * (hip_half_ + 0.004 * h - gap), 0.03 * h);
+  const double widest = std::max(0.5 * (hip_half_ - gap), 0.03 * h);
   if (thigh.a > widest) {
     const double girth = 0.75 * plan.thigh_girth + 0.25 * plan.thigh_girth * widest / thigh.a;
     thigh = station(thigh.s, 0, thigh.z, girth, ratio, 0.5);
@@ -69,8 +69,17 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
   const double up = crotch - knee;
   s.push_back(station(knee + 0.45 * up, x_at(knee + 0.45 * up), 0.006 * h, girth_at(0.45), 1.08, 0.53));
   s.push_back(station(knee + 0.72 * up, x_at(knee + 0.72 * up), 0.006 * h, girth_at(0.80), 1.10, 0.52));
-  // No thigh on the way up may be wider than the place the crotch leaves it.
+  // No thigh on the way up may reach past the middle, or stand out further than the hips: what breadth it loses there
+  // it gets back in depth.
   for (Section& section : s) {
+    const double below_hip = std::clamp((thigh.s - section.s) / (thigh.s - knee), 0.0, 1.0);
+    const double room = 0.5 * (std::max(thigh.x + thigh.a, 0.94 * hip_half_) * (1 - 0.12 * below_hip) - gap);
+    if (section.a > room) {
+      const double stretch = std::min(section.a / room, 1.35);
+      section.front *= stretch;
+      section.back *= stretch;
+      section.a = room;
+    }
     if (section.x - section.a < gap) section.x = section.a + gap;
   }
   s.push_back(thigh);
@@ -78,7 +87,7 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
   Section hip = thigh;
   hip.s = hip_height;
   hip.a = 0.84 * thigh.a;
-  hip.x = std::max(hip_half_ + 0.002 * h - hip.a, 0.3 * hip_half_);
+  hip.x = std::max(hip_half_ - hip.a, 0.3 * hip_half_);
   hip.front *= 0.90;
   hip.back *= 0.90;
   s.push_back(hip);
@@ -91,9 +100,10 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
     section.back *= depth;
     s.push_back(section);
   };
-  sink(0.030 * h, 0.75, 0.75, 0.005 * h);
-  sink(0.065 * h, 0.40, 0.45, 0.022 * h);
-  leg_ = Loft(s, Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), 0.009 * h, 0.006);
+  sink(0.030 * h, 0.78, 0.75, 0.004 * h);
+  sink(0.060 * h, 0.50, 0.50, 0.014 * h);
+  sink(0.095 * h, 0.25, 0.25, 0.032 * h);
+  leg_ = Loft(s, Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), 0.013 * h, 0.006);
 
   const double turn = 7 * pi / 180, length = plan.foot_length, half = 0.5 * plan.foot_breadth;
   const Vec3 ahead(std::sin(turn), 0, std::cos(turn)), aside(std::cos(turn), 0, -std::sin(turn));
@@ -123,16 +133,16 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
 void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknowns& u, double arm_angle) {
   const double h = m.height;
   const double biceps = 0.92 * plan.biceps_girth, forearm = 0.95 * plan.forearm_girth, wrist_girth = plan.wrist_girth;
-  const double shoulder = 1.10 * biceps / (2 * pi);
+  const double shoulder = shoulder_radius(plan);
   const double y = plan.acromion_height - shoulder;
-  arm_root = Vec3(0.5 * plan.biacromial + (woman_ ? -0.004 : 0.004) * h, y, -0.004 * h);
+  arm_root = Vec3(shoulder_half(plan), y, -0.004 * h);
   // The arm must clear the chest at the bust, where the tape and the garment pass: first it moves out, then it lifts.
-  const double clear = chest_half_ + 0.016;
+  const double clear = chest_half_ + arm_gap;
   const auto inner = [&](double angle) {
     return arm_root.x() + (y - bust_height) * std::tan(angle) - 1.04 * shoulder / std::cos(angle);
   };
   double angle = arm_angle;
-  if (inner(angle) < clear) arm_root.x() += std::min(0.5 * (clear - inner(angle)), 0.03 * h);
+  if (inner(angle) < clear) arm_root.x() += std::min(0.6 * (clear - inner(angle)), shoulder_shift * h);
   while (inner(angle) < clear && angle < 65 * pi / 180) angle += 0.5 * pi / 180;
   arm_axis = Vec3(std::sin(angle), -std::cos(angle), 0);
   arm_across = Vec3(std::cos(angle), std::sin(angle), 0);
@@ -179,16 +189,16 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
     Section section;
     section.s = part.t * hand;
     section.x = -0.05 * hand * part.t * part.t;
-    section.a = 0.42 * palm * part.thick;
+    section.a = 0.48 * palm * part.thick;
     section.front = section.back = palm * part.wide;
-    section.n_front = section.n_back = 2.2;
+    section.n_front = section.n_back = 2.0;
     g.push_back(section);
   }
   hand_ = Loft(g, wrist, along, thin, wide, 0.006, 0.005);
   thumb_.a = wrist + 0.14 * hand * along + 0.45 * palm * wide;
-  thumb_.b = wrist + 0.56 * hand * along + 1.18 * palm * wide - 0.10 * hand * thin;
-  thumb_.ra = 0.30 * palm;
-  thumb_.rb = 0.24 * palm;
+  thumb_.b = wrist + 0.50 * hand * along + 1.05 * palm * wide - 0.06 * hand * thin;
+  thumb_.ra = 0.36 * palm;
+  thumb_.rb = 0.30 * palm;
 
   // Where the arm's lower edge runs into the chest's side.
   const double down = (chest_half_ - inner(angle) + (y - bust_height) * std::tan(angle)) / std::tan(angle);

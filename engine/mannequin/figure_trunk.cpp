@@ -30,13 +30,31 @@ Section sized(double s, double girth, double ratio, double z, double front_share
 
 }  // namespace
 
+double Figure::shoulder_radius(const BodyPlan& plan) const {
+  return 1.10 * 0.92 * plan.biceps_girth / (2 * std::numbers::pi);
+}
+
+double Figure::shoulder_half(const BodyPlan& plan) const {
+  return 0.5 * plan.biacromial + (woman_ ? -0.004 : 0.004) * height_;
+}
+
+/// The level below which an arm at 50 degrees leaves a chest of this girth free: a broad chest under low shoulders is
+/// measured a little further down.
+double Figure::highest_bust(const Measurements& m, const BodyPlan& plan) const {
+  constexpr double steepest = 50 * std::numbers::pi / 180;
+  const double radius = shoulder_radius(plan), chest_half = 0.180 * m.bust;
+  const double outside = chest_half + arm_gap + 1.04 * radius / std::cos(steepest) - shoulder_half(plan);
+  return plan.acromion_height - radius - (outside - 0.5 * shoulder_shift * height_) / std::tan(steepest);
+}
+
 Figure::Figure(const Measurements& m, const BodyPlan& plan, double arm_angle, const Unknowns& u) {
   height_ = m.height;
   woman_ = m.sex == "woman";
   const double h = m.height;
   hip_height = std::clamp(plan.hip_height, m.inside_leg + 0.034 * h, m.inside_leg + 0.055 * h);
   waist_height = std::clamp(plan.waist_height(), hip_height + 0.085 * h, hip_height + 0.16 * h);
-  bust_height = std::clamp(plan.bust_height, waist_height + 0.075 * h, 0.735 * h);
+  bust_height = std::clamp(plan.bust_height, waist_height + 0.075 * h, std::max(waist_height + 0.075 * h, 0.735 * h));
+  bust_height = std::max(std::min(bust_height, highest_bust(m, plan)), 0.68 * h);
   if (bust_height < waist_height + 0.07 * h) waist_height = bust_height - 0.07 * h;
   under_bust_height = bust_height - (woman_ ? 0.036 : 0.035) * h;
   make_trunk(m, plan, u);
@@ -49,7 +67,7 @@ Figure::Figure(const Measurements& m, const BodyPlan& plan, double arm_angle, co
 
 void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unknowns& u) {
   const double h = m.height;
-  const double chest_girth = u.under_bust + (woman_ ? 0.45 : 1.0) * u.bust;
+  const double chest_girth = u.under_bust + (woman_ ? 0.30 : 1.0) * u.bust;
   const double ratio_hip = depth_ratio(woman_ ? 0.655 : 0.70, u.hip, (woman_ ? 0.60 : 0.57) * h);
   const double ratio_waist = depth_ratio(woman_ ? 0.70 : 0.735, u.waist, (woman_ ? 0.47 : 0.50) * h);
   const double ratio_ribs = depth_ratio(woman_ ? 0.72 : 0.70, u.under_bust, (woman_ ? 0.49 : 0.55) * h, 0.16);
@@ -116,7 +134,7 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   trunk_ = Loft(s, Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ(), 0.010 * h, 0.012 * h);
 
   // On a man the same shape, shallow and broad, makes the chest muscles.
-  breast = woman_ ? std::max(0.0, 0.26 * u.bust / (1 + std::max(u.bust, 0.0) / 0.30)) : 0.003 * h;
+  breast = woman_ ? std::max(0.0, 0.26 * u.bust / (1 + std::max(u.bust, 0.0) / 0.80)) : 0.003 * h;
   bust_apart = (woman_ ? 0.53 : 0.48) * chest.a;
   const double share = bust_apart / chest.a;
   const double wall = chest.z + chest.front * std::pow(1 - std::pow(share, chest.n_front), 1 / chest.n_front);

@@ -191,11 +191,37 @@ class Finder {
       mark_[side < 0 ? "bust_left" : "bust_right"] = best;
     }
     girth_["bust"] = bust.tape;
-    const auto under = level(bust.centre.y() - 0.028 * h_);
+    const auto under = level(bust_fold(mark_["bust_right"]));
     if (!under) return false;
     mark_["under_bust"] = midline(*under, 1);
     girth_["under_bust"] = under->tape;
     return true;
+  }
+
+  /// Level of the fold under the breast: where the outline in front, after falling back from the bust point, turns to
+  /// follow the ribs. A flat chest has none; its under-bust is at the lower edge of the chest muscle.
+  double bust_fold(const Vec3& bust) const {
+    const std::vector<Ring> rings = slice(mesh_, {bust.x(), 0, 0}, Vec3::UnitX());
+    const auto front = [&](double y) {
+      double z = -huge;
+      for (const Ring& ring : rings)
+        for (std::size_t i = 0; i < ring.points.size(); ++i) {
+          const Vec3 &a = ring.points[i], &b = ring.points[(i + 1) % ring.points.size()];
+          if ((a.y() < y) == (b.y() < y)) continue;
+          z = std::max(z, a.z() + (y - a.y()) / (b.y() - a.y()) * (b.z() - a.z()));
+        }
+      return z;
+    };
+    const double step = 0.004 * h_;
+    double sharpest = 0, fold = bust.y() - 0.015 * h_;
+    for (double y = bust.y() - 0.012 * h_; y > bust.y() - 0.055 * h_; y -= 0.001 * h_) {
+      const double turn = front(y + step) - 2 * front(y) + front(y - step);
+      if (turn > sharpest && bust.z() - front(y) > 0.008 * h_) {
+        sharpest = turn;
+        fold = y;
+      }
+    }
+    return fold;
   }
 
   bool neck() {
@@ -273,6 +299,10 @@ class Finder {
     std::size_t wrist = 0;
     for (std::size_t i = 0; i < at.size(); ++i)
       if (at[i] >= 0.66 && at[i] <= 0.80 && (wrist == 0 || tape[i] < tape[wrist])) wrist = i;
+    girth_["wrist"] += 0.5 * tape[wrist];
+    // The wrist bones end a little further out, where the tape begins to widen towards the hand.
+    const double narrowest = tape[wrist];
+    while (wrist + 1 < tape.size() && at[wrist] < 0.86 && tape[wrist] < 1.10 * narrowest) ++wrist;
     // Elbow: 0.563 of the way from acromion to wrist (ANSUR II).
     std::size_t elbow = 0;
     const double whole = (centre[wrist] - acromion).norm();
@@ -287,7 +317,6 @@ class Finder {
     mark_["elbow" + name] = centre[elbow];
     mark_["wrist" + name] = centre[wrist];
     girth_["biceps"] += 0.5 * tape[biceps];
-    girth_["wrist"] += 0.5 * tape[wrist];
     girth_["arm"] += 0.5 * ((centre[elbow] - acromion).norm() + (centre[wrist] - centre[elbow]).norm());
     return true;
   }

@@ -98,10 +98,11 @@ Result<TriMesh> read_mesh(const std::string& path) {
                                   aiProcess_SortByPType | aiProcess_PreTransformVertices);
   if (scene == nullptr)
     return refuse("NOT_A_MESH", path, std::string("cannot be read (") + importer.GetErrorString() + ")",
-                  "Give a closed mesh as OBJ, GLB or PLY.");
+                  "Give a closed mesh as OBJ, GLB, PLY or DAE.");
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
-  if (triangles == 0) return refuse("NOT_A_MESH", path, "has no triangles", "Give a closed mesh as OBJ, GLB or PLY.");
+  if (triangles == 0)
+    return refuse("NOT_A_MESH", path, "has no triangles", "Give a closed mesh as OBJ, GLB, PLY or DAE.");
   if (triangles > most_triangles)
     return refuse("TOO_LARGE", path, "has more than 2,000,000 triangles", "Simplify the mesh.");
   TriMesh soup;
@@ -128,6 +129,16 @@ Result<TriMesh> read_mesh(const std::string& path) {
     }
   }
   return weld(soup);
+}
+
+/// Where to look for the first edge at fault, in the file's own coordinates.
+std::string first_fault(const TriMesh& mesh, const body::MeshState& state) {
+  if (!state.has_fault) return "";
+  const Vec3 &a = mesh.vertices[state.fault_from], &b = mesh.vertices[state.fault_to];
+  char text[200];
+  std::snprintf(text, sizeof text, "; the first from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g)", a.x(), a.y(), a.z(),
+                b.x(), b.y(), b.z());
+  return text;
 }
 
 struct Box {
@@ -177,9 +188,10 @@ Result<Mannequin> import_mannequin(const std::string& path) {
   if (problem || bytes > most_bytes) return refuse("TOO_LARGE", path, "is larger than 256 MB", "Simplify the mesh.");
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".obj" && extension != ".glb" && extension != ".ply")
-    return refuse("NOT_A_MESH", path, "is not an OBJ, GLB or PLY file", "Give a closed mesh as OBJ, GLB or PLY.");
-  if (bytes == 0) return refuse("NOT_A_MESH", path, "is empty", "Give a closed mesh as OBJ, GLB or PLY.");
+  if (extension != ".obj" && extension != ".glb" && extension != ".ply" && extension != ".dae")
+    return refuse("NOT_A_MESH", path, "is not an OBJ, GLB, PLY or DAE file",
+                  "Give a closed mesh as OBJ, GLB, PLY or DAE.");
+  if (bytes == 0) return refuse("NOT_A_MESH", path, "is empty", "Give a closed mesh as OBJ, GLB, PLY or DAE.");
   if (extension == ".ply" && !honest_ply(path, bytes))
     return refuse("NOT_A_MESH", path, "has a broken PLY header", "Export the mesh again.");
   try {
@@ -195,15 +207,28 @@ Result<Mannequin> import_mannequin(const std::string& path) {
       return refuse("NOT_WATERTIGHT", path,
                     "is not closed: " + std::to_string(state.open_edges) + " open, " +
                         std::to_string(state.crowded_edges) + " crowded, " + std::to_string(state.turned_edges) +
-                        " wrongly turned edges",
+                        " wrongly turned edges" + first_fault(result.mesh, state),
                     "Close the holes and unify the normals in a mesh editor.");
     Box box;
     for (const Vec3& v : result.mesh.vertices) box.add(v);
+    if (const Vec3 size = box.high - box.low; size.z() > 1.5 * size.y()) {
+      // Z up, as Blender and CAD have it, front towards -Y.
+      for (Vec3& v : result.mesh.vertices) v = Vec3(v.x(), v.z(), -v.y());
+      box = {};
+      for (const Vec3& v : result.mesh.vertices) box.add(v);
+      result.warnings.push_back(path + " stands along +Z: turned so that +Y is up and its -Y the front");
+    }
     const Vec3 size = box.high - box.low;
     const double unit = size.y() >= 1400 && size.y() <= 2200 ? 1e-3 : size.y() >= 140 && size.y() <= 220 ? 1e-2 : 1.0;
     const double height = size.y() * unit;
+    if (unit != 1.0) {
+      char text[120];
+      std::snprintf(text, sizeof text, " is %.4g units tall: taken for %s", size.y(),
+                    unit == 1e-3 ? "millimetres" : "centimetres");
+      result.warnings.push_back(path + text);
+    }
     if (size.z() * 1.5 > size.y() || size.x() > 1.3 * size.y())
-      return refuse("NOT_A_BODY", path, "does not stand upright: its largest extent is not +Y",
+      return refuse("NOT_A_BODY", path, "does not stand upright: its largest extent is neither +Y nor +Z",
                     "Turn the mesh so that +Y is up and +Z is the front.");
     if (!(height >= 1.2 && height <= 2.4)) {
       char text[80];
@@ -222,7 +247,7 @@ Result<Mannequin> import_mannequin(const std::string& path) {
     return result;
   } catch (const std::exception& e) {
     return refuse("NOT_A_MESH", path, std::string("cannot be read (") + e.what() + ")",
-                  "Give a closed mesh as OBJ, GLB or PLY.");
+                  "Give a closed mesh as OBJ, GLB, PLY or DAE.");
   }
 }
 

@@ -94,6 +94,8 @@ Loft::Loft(const std::vector<Section>& sections, const Vec3& origin, const Vec3&
     }
     for (int i = 0; i < count; ++i) table_[i].*parameter = value[i];
   }
+  elliptic_ = std::all_of(sections.begin(), sections.end(),
+                          [](const Section& section) { return section.n_front == 2 && section.n_back == 2; });
   low_ = Vec3::Constant(1e9);
   high_ = -low_;
   for (int i = 0; i < count; ++i) {
@@ -135,7 +137,8 @@ double Loft::distance(const Vec3& p) const {
   const double u = std::abs(dx) / a, v = std::abs(dz) / b;
   double d = -std::min(a, b);
   if (u + v > 1e-4) {
-    const double un = std::pow(u, n), vn = std::pow(v, n), g = std::pow(un + vn, 1 / n);
+    const double un = elliptic_ ? u * u : std::pow(u, n), vn = elliptic_ ? v * v : std::pow(v, n);
+    const double g = elliptic_ ? std::sqrt(un + vn) : std::pow(un + vn, 1 / n);
     const double gu = u > 1e-9 ? un / u * g / (un + vn) : 0, gv = v > 1e-9 ? vn / v * g / (un + vn) : 0;
     const double gx = gu / a * (dx < 0 ? -1 : 1), gz = gv / b * (dz < 0 ? -1 : 1);
     // Beyond the ends the end's own slope stays in use: a jump of the divisor would show as a ring.

@@ -35,6 +35,7 @@ class Loft {
   const Vec3& high() const { return high_; }
 
  private:
+  bool elliptic_ = false;  ///< all exponents are 2: no powers needed
   double step_ = 0.004, start_ = 0, end_ = 0, rounding_ = 0;
   Vec3 origin_ = Vec3::Zero(), along_ = Vec3::UnitY(), across_ = Vec3::UnitX(), forward_ = Vec3::UnitZ();
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();

@@ -29,6 +29,11 @@ MeshState inspect(const TriMesh& mesh) {
     if (j - i == 1) ++state.open_edges;
     if (j - i > 2) ++state.crowded_edges;
     if (j - i == 2 && edges[i] == edges[i + 1]) ++state.turned_edges;
+    if (!state.has_fault && !state.closed()) {
+      state.has_fault = true;
+      state.fault_from = static_cast<std::uint32_t>(edges[i] >> 32);
+      state.fault_to = static_cast<std::uint32_t>(edges[i] >> 1 & 0x7fffffffU);
+    }
     i = j;
   }
   const std::vector<int> piece = pieces(mesh);

@@ -5,10 +5,12 @@
 namespace vitrine::body {
 
 struct MeshState {
-  std::size_t open_edges = 0;     ///< edges with one triangle
-  std::size_t crowded_edges = 0;  ///< edges with more than two
-  std::size_t turned_edges = 0;   ///< edges that both triangles walk in the same direction
-  std::size_t parts = 0;          ///< connected pieces
+  std::size_t open_edges = 0;                  ///< edges with one triangle
+  std::size_t crowded_edges = 0;               ///< edges with more than two
+  std::size_t turned_edges = 0;                ///< edges that both triangles walk in the same direction
+  bool has_fault = false;                      ///< any of the above; then the first such edge:
+  std::uint32_t fault_from = 0, fault_to = 0;  ///< vertices
+  std::size_t parts = 0;                       ///< connected pieces
   bool finite = true;
   bool valid_indices = true;
   bool closed() const { return open_edges == 0 && crowded_edges == 0 && turned_edges == 0; }

@@ -27,13 +27,21 @@ class Remesher {
     slide();
   }
 
+  /// Secant steps along the vertex normal: the field's slope is 1 save where two parts blend.
   void project(int steps) {
-    for (Vec3& p : v_) {
-      for (int i = 0; i < steps; ++i) {
-        const Vec3 g = surface_.gradient(p);
-        const double d = surface_.distance(p), slope = g.squaredNorm();
-        if (slope < 1e-2) break;
-        p -= std::clamp(d / slope, -0.005, 0.005) * g;
+    std::vector<Vec3> normal(v_.size(), Vec3::Zero());
+    for (const Triangle& t : t_)
+      for (Index corner : t) normal[corner] += cross(t[0], t[1], t[2]);
+    for (Index i = 0; i < v_.size(); ++i) {
+      const Vec3 n = normal[i].normalized();
+      double slope = 1, before = 0, moved = 0;
+      for (int step = 0; step < steps; ++step) {
+        const double d = surface_.distance(v_[i]);
+        if (std::abs(d) < 1e-6) break;
+        if (std::abs(moved) > 1e-6) slope = std::clamp((before - d) / moved, 0.5, 2.0);
+        before = d;
+        moved = std::clamp(d / slope, -0.005, 0.005);
+        v_[i] -= moved * n;
       }
     }
   }
@@ -249,7 +257,11 @@ class Remesher {
 void remesh(TriMesh& mesh, const Surface& surface, int rounds) {
   Remesher work(mesh, surface);
   for (int i = 0; i < rounds; ++i) work.round();
-  work.project(4);
+  work.project(5);
+}
+
+void settle(TriMesh& mesh, const Surface& surface) {
+  Remesher(mesh, surface).project(5);
 }
 
 }  // namespace vitrine::body

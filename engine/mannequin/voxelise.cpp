@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 
 #include "mesh_check.hpp"
@@ -15,27 +17,76 @@ namespace {
 constexpr std::size_t most_voxels = std::size_t{1} << 27;  ///< 128 M: 0.5 GB of floats, 0.5 GB of triangle numbers
 constexpr std::size_t most_triangles = 2'000'000;
 
-/// Squared distance from p to the triangle a b c (Ericson, Real-Time Collision Detection, 5.1.5).
-double triangle_distance2(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+/// Point of the triangle a b c nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
+Vec3 nearest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return ap.squaredNorm();
+  if (d1 <= 0 && d2 <= 0) return a;
   const Vec3 bp = p - b;
   const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return bp.squaredNorm();
+  if (d3 >= 0 && d4 <= d3) return b;
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).squaredNorm();
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
   const Vec3 cp = p - c;
   const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return cp.squaredNorm();
+  if (d6 >= 0 && d5 <= d6) return c;
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).squaredNorm();
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return (bp - (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b)).squaredNorm();
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
   const double denominator = va + vb + vc;
-  if (!(denominator > 0)) return ap.squaredNorm();
-  return (ap - vb / denominator * ab - vc / denominator * ac).squaredNorm();
+  if (!(denominator > 0)) return a;
+  return a + vb / denominator * ab + vc / denominator * ac;
 }
+
+/// A triangle prepared for many questions. Two projections decide where the nearest point lies (Ericson 5.1.5, with
+/// the products that do not depend on p worked out once), and give the distance without it.
+class Facet {
+ public:
+  Facet(const Vec3& a, const Vec3& b, const Vec3& c)
+      : a_(a),
+        ab_(b - a),
+        ac_(c - a),
+        normal_(ab_.cross(ac_).normalized()),
+        ab2_(ab_.squaredNorm()),
+        ac2_(ac_.squaredNorm()),
+        abac_(ab_.dot(ac_)) {}
+
+  double height(const Vec3& p) const { return std::abs((p - a_).dot(normal_)); }
+
+  double distance2(const Vec3& p) const {
+    const Vec3 ap = p - a_;
+    const double ap2 = ap.squaredNorm(), d1 = ab_.dot(ap), d2 = ac_.dot(ap);
+    if (d1 <= 0 && d2 <= 0) return ap2;
+    const double d3 = d1 - ab2_, d4 = d2 - abac_, d5 = d1 - abac_, d6 = d2 - ac2_;
+    if (d3 >= 0 && d4 <= d3) return std::max(0.0, ap2 - d1 - d3);
+    if (d6 >= 0 && d5 <= d6) return std::max(0.0, ap2 - d2 - d6);
+    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return std::max(0.0, ap2 - d1 * d1 / ab2_);
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return std::max(0.0, ap2 - d2 * d2 / ac2_);
+    if (va <= 0 && d4 >= d3 && d5 >= d6) {
+      const double along = d4 - d3, length2 = along + d5 - d6;
+      return std::max(0.0, ap2 - d1 - d3 - along * along / length2);
+    }
+    const double h = ap.dot(normal_);
+    return va + vb + vc > 0 ? h * h : ap2;
+  }
+
+ private:
+  Vec3 a_, ab_, ac_, normal_;
+  double ab2_, ac2_, abac_;
+};
+
+/// The body's mesh and its triangles once more, prepared.
+struct Surface {
+  explicit Surface(const TriMesh& m) : mesh(m) {
+    facets.reserve(m.triangles.size());
+    for (const Triangle& t : m.triangles) facets.emplace_back(m.vertices[t[0]], m.vertices[t[1]], m.vertices[t[2]]);
+  }
+  double distance2(const Vec3& p, std::int32_t t) const { return facets[static_cast<std::size_t>(t)].distance2(p); }
+  const TriMesh& mesh;
+  std::vector<Facet> facets;
+};
 
 struct Grid {
   Vec3 origin;
@@ -47,9 +98,10 @@ struct Grid {
   Vec3 at(int x, int y, int z) const { return origin + spacing * Vec3(x, y, z); }
 };
 
-/// Exact distances in a band of about two voxels around the surface.
-void fill_band(const TriMesh& body, const Grid& g, std::vector<float>& distance, std::vector<std::int32_t>& nearest) {
-  const double band = 2.0 * g.spacing;
+/// Exact distances up to `band` [m] from the surface, and the triangles they lead to.
+void fill_band(const Surface& surface, const Grid& g, double band, std::vector<float>& distance,
+               std::vector<std::int32_t>& nearest) {
+  const TriMesh& body = surface.mesh;
   for (std::size_t i = 0; i < body.triangles.size(); ++i) {
     const Vec3 &a = body.vertices[body.triangles[i][0]], &b = body.vertices[body.triangles[i][1]],
                &c = body.vertices[body.triangles[i][2]];
@@ -59,33 +111,38 @@ void fill_band(const TriMesh& body, const Grid& g, std::vector<float>& distance,
       from[k] = std::max(0, static_cast<int>(std::ceil((low[k] - band - g.origin[k]) / g.spacing)));
       to[k] = std::min(g.n[k] - 1, static_cast<int>(std::floor((high[k] + band - g.origin[k]) / g.spacing)));
     }
-    const Vec3 normal = (b - a).cross(c - a).normalized();
+    const Facet& facet = surface.facets[i];
+    const Vec3 middle = (a + b + c) / 3;
+    const double radius =
+        std::sqrt(std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
     for (int z = from[2]; z <= to[2]; ++z)
       for (int y = from[1]; y <= to[1]; ++y)
         for (int x = from[0]; x <= to[0]; ++x) {
           const Vec3 p = g.at(x, y, z);
-          if (std::abs((p - a).dot(normal)) > band) continue;
-          const float d = static_cast<float>(std::sqrt(triangle_distance2(p, a, b, c)));
           const std::size_t v = g.index(x, y, z);
-          if (d < distance[v]) {
-            distance[v] = d;
-            nearest[v] = static_cast<std::int32_t>(i);
-          }
+          const double off = facet.height(p);
+          const double limit = std::min(band, static_cast<double>(distance[v]));
+          if (off >= limit || (p - middle).squaredNorm() > (radius + limit) * (radius + limit)) continue;
+          const double d = std::sqrt(facet.distance2(p));
+          if (d >= distance[v]) continue;
+          distance[v] = static_cast<float>(d);
+          nearest[v] = static_cast<std::int32_t>(i);
         }
   }
 }
 
 /// Carries the nearest triangle from voxel to voxel (vector distance sweeping): far from the surface the distance is
 /// that to a true triangle, so it is never too small and very nearly exact.
-void sweep(const TriMesh& body, const Grid& g, std::vector<float>& distance, std::vector<std::int32_t>& nearest) {
+/// `rows` holds for each y and z where there is anything to do: from which x and before which.
+using Rows = std::vector<std::vector<std::array<int, 2>>>;
+void sweep(const Surface& body, const Grid& g, const Rows& rows, std::vector<float>& distance,
+           std::vector<std::int32_t>& nearest) {
   const auto pull = [&](const Vec3& p, std::size_t v, std::size_t from) {
     const std::int32_t t = nearest[from];
     if (t < 0 || t == nearest[v]) return;
     // The neighbour's distance bounds what it can offer.
     if (distance[from] - 1.001 * g.spacing >= distance[v]) return;
-    const Triangle& corner = body.triangles[static_cast<std::size_t>(t)];
-    const float d = static_cast<float>(
-        std::sqrt(triangle_distance2(p, body.vertices[corner[0]], body.vertices[corner[1]], body.vertices[corner[2]])));
+    const float d = static_cast<float>(std::sqrt(body.distance2(p, t)));
     if (d < distance[v]) {
       distance[v] = d;
       nearest[v] = t;
@@ -99,16 +156,21 @@ void sweep(const TriMesh& body, const Grid& g, std::vector<float>& distance, std
       for (int half = 0; half < 2; ++half)
         for (int j = 0; j < g.n[1]; ++j) {
           const int y = half == 0 ? j : g.n[1] - 1 - j;
+          const auto& spans = rows[y + static_cast<std::size_t>(g.n[1]) * z];
+          const std::size_t count = spans.size();
           for (int quarter = 0; quarter < 2; ++quarter)
-            for (int i = 0; i < g.n[0]; ++i) {
-              const int x = quarter == 0 ? i : g.n[0] - 1 - i;
-              const std::size_t v = g.index(x, y, z);
-              const Vec3 p = g.at(x, y, z);
-              if (quarter == 0) {
-                if (half == 0 && z != (up ? 0 : g.n[2] - 1)) pull(p, v, up ? v - slab : v + slab);
-                if (y != (half == 0 ? 0 : g.n[1] - 1)) pull(p, v, half == 0 ? v - row : v + row);
+            for (std::size_t k = 0; k < count; ++k) {
+              const auto [from, to] = spans[quarter == 0 ? k : count - 1 - k];
+              for (int i = from; i < to; ++i) {
+                const int x = quarter == 0 ? i : from + to - 1 - i;
+                const std::size_t v = g.index(x, y, z);
+                const Vec3 p = g.at(x, y, z);
+                if (quarter == 0) {
+                  if (half == 0 && z != (up ? 0 : g.n[2] - 1)) pull(p, v, up ? v - slab : v + slab);
+                  if (y != (half == 0 ? 0 : g.n[1] - 1)) pull(p, v, half == 0 ? v - row : v + row);
+                }
+                if (x != (quarter == 0 ? 0 : g.n[0] - 1)) pull(p, v, quarter == 0 ? v - 1 : v + 1);
               }
-              if (x != (quarter == 0 ? 0 : g.n[0] - 1)) pull(p, v, quarter == 0 ? v - 1 : v + 1);
             }
         }
     }
@@ -167,6 +229,177 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
     }
 }
 
+constexpr double band_voxels = 2;  ///< exact distances at this many voxels from the surface
+constexpr double near_voxels = 7;  ///< and nearest triangles from voxel to voxel up to here, and everywhere inside
+constexpr int coarse_step = 4;     ///< voxels from one coarse sample to the next
+
+/// Every fourth voxel in each direction, with the nearest triangle: tells where the fine work is worth its time.
+struct Coarse {
+  Grid grid;
+  std::vector<float> distance;  ///< [m] signed
+  std::vector<std::int32_t> nearest;
+  std::vector<Eigen::Vector3f> foot;  ///< nearest point, relative to the grid's origin so that floats suffice
+};
+
+Rows whole_rows(const Grid& g) {
+  return Rows(static_cast<std::size_t>(g.n[1]) * g.n[2], {{0, g.n[0]}});
+}
+
+/// The triangles around each vertex.
+class Fans {
+ public:
+  explicit Fans(const TriMesh& body) : start_(body.vertices.size() + 1, 0), triangle_(3 * body.triangles.size()) {
+    for (const Triangle& t : body.triangles)
+      for (std::uint32_t v : t) ++start_[v + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+    for (std::size_t i = 0; i < body.triangles.size(); ++i)
+      for (std::uint32_t v : body.triangles[i]) triangle_[next[v]++] = static_cast<std::int32_t>(i);
+  }
+  std::span<const std::int32_t> of(std::uint32_t v) const {
+    return {triangle_.data() + start_[v], triangle_.data() + start_[v + 1]};
+  }
+
+ private:
+  std::vector<std::uint32_t> start_;
+  std::vector<std::int32_t> triangle_;
+};
+
+/// Walks over the mesh from triangle t to the one nearest to p, vertex by vertex downhill.
+std::int32_t walk(const Surface& surface, const Fans& fans, const Vec3& p, std::int32_t t) {
+  const TriMesh& body = surface.mesh;
+  const auto off = [&](std::uint32_t v) { return (body.vertices[v] - p).squaredNorm(); };
+  const Triangle& first = body.triangles[static_cast<std::size_t>(t)];
+  std::uint32_t here =
+      *std::min_element(first.begin(), first.end(), [&](std::uint32_t a, std::uint32_t b) { return off(a) < off(b); });
+  for (std::uint32_t from = here;; from = here) {
+    for (std::int32_t i : fans.of(from))
+      for (std::uint32_t v : body.triangles[static_cast<std::size_t>(i)])
+        if (off(v) < off(here)) here = v;
+    if (here == from) break;
+  }
+  double least = surface.distance2(p, t);
+  for (std::int32_t i : fans.of(here))
+    if (const double d = surface.distance2(p, i); d < least) {
+      least = d;
+      t = i;
+    }
+  return t;
+}
+
+Coarse make_coarse(const Surface& surface, const Grid& g) {
+  const TriMesh& body = surface.mesh;
+  Coarse c{{g.origin, coarse_step * g.spacing, {0, 0, 0}}, {}, {}, {}};
+  for (int a = 0; a < 3; ++a) c.grid.n[a] = (g.n[a] - 1) / coarse_step + 2;
+  const std::size_t total = static_cast<std::size_t>(c.grid.n[0]) * c.grid.n[1] * c.grid.n[2];
+  c.distance.assign(total, std::numeric_limits<float>::max());
+  c.nearest.assign(total, -1);
+  fill_band(surface, c.grid, c.grid.spacing, c.distance, c.nearest);
+  sweep(surface, c.grid, whole_rows(c.grid), c.distance, c.nearest);
+  // A neighbour's triangle is a fair guess on so coarse a grid, no more.
+  const Fans fans(body);
+  c.foot.resize(total);
+  for (int z = 0; z < c.grid.n[2]; ++z)
+    for (int y = 0; y < c.grid.n[1]; ++y)
+      for (int x = 0; x < c.grid.n[0]; ++x) {
+        const std::size_t v = c.grid.index(x, y, z);
+        const Vec3 p = c.grid.at(x, y, z);
+        c.nearest[v] = walk(surface, fans, p, c.nearest[v]);
+        const Triangle& t = body.triangles[static_cast<std::size_t>(c.nearest[v])];
+        const Vec3 at = nearest_point(p, body.vertices[t[0]], body.vertices[t[1]], body.vertices[t[2]]);
+        c.foot[v] = (at - g.origin).cast<float>();
+        c.distance[v] = static_cast<float>((at - p).norm());
+      }
+  sign_by_parity(body, c.grid, c.distance);
+  return c;
+}
+
+/// The eight corners of a coarse cell.
+std::array<std::size_t, 8> corners(const Coarse& c, int x, int y, int z) {
+  std::array<std::size_t, 8> corner;
+  for (int k = 0; k < 8; ++k) corner[k] = c.grid.index(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+  return corner;
+}
+
+/// Far outside, a voxel's distance is interpolated between the corners of its coarse cell or, where these look at
+/// different parts of the body, taken to the nearest of their nearest points. Gives the rows of what is left: the
+/// body's inside and the surroundings of its surface.
+Rows fill_far(const Coarse& c, const Grid& g, std::vector<float>& distance) {
+  Rows rows(static_cast<std::size_t>(g.n[1]) * g.n[2]);
+  const float h = static_cast<float>(g.spacing), near = static_cast<float>(near_voxels * g.spacing);
+  using Row = Eigen::Array<float, coarse_step, 1>;
+  const Row steps = Row::LinSpaced(coarse_step, 0, coarse_step - 1);
+  for (int cz = 0; cz + 1 < c.grid.n[2]; ++cz)
+    for (int cy = 0; cy + 1 < c.grid.n[1]; ++cy)
+      for (int cx = 0; cx + 1 < c.grid.n[0]; ++cx) {
+        const std::array<std::size_t, 8> corner = corners(c, cx, cy, cz);
+        const bool close =
+            std::any_of(corner.begin(), corner.end(), [&](std::size_t v) { return c.distance[v] < near; });
+        // Feet further apart than the corners are lie on different parts of the body: the distance has a ridge here.
+        float apart = 0;
+        for (const std::size_t v : corner) apart = std::max(apart, (c.foot[v] - c.foot[corner[0]]).squaredNorm());
+        const bool smooth = apart <= 3.3F * coarse_step * coarse_step * h * h;
+        const int x0 = cx * coarse_step, x1 = std::min(x0 + coarse_step, g.n[0]);
+        for (int z = cz * coarse_step; z < std::min((cz + 1) * coarse_step, g.n[2]); ++z)
+          for (int y = cy * coarse_step; y < std::min((cy + 1) * coarse_step, g.n[1]); ++y) {
+            if (close) {
+              auto& spans = rows[y + static_cast<std::size_t>(g.n[1]) * z];
+              if (!spans.empty() && spans.back()[1] == x0)
+                spans.back()[1] = x1;
+              else
+                spans.push_back({x0, x1});
+              continue;
+            }
+            Row value;
+            if (smooth) {
+              const float v = static_cast<float>(y - cy * coarse_step) / coarse_step;
+              const float w = static_cast<float>(z - cz * coarse_step) / coarse_step;
+              const auto edge = [&](int k) {
+                return (1 - w) * ((1 - v) * c.distance[corner[k]] + v * c.distance[corner[k + 2]]) +
+                       w * ((1 - v) * c.distance[corner[k + 4]] + v * c.distance[corner[k + 6]]);
+              };
+              value = edge(0) + (edge(1) - edge(0)) / coarse_step * steps;
+            } else {
+              const Row px = h * (static_cast<float>(x0) + steps);
+              const float py = h * static_cast<float>(y), pz = h * static_cast<float>(z);
+              Row least = Row::Constant(std::numeric_limits<float>::max());
+              for (const std::size_t k : corner) {
+                const Eigen::Vector3f& q = c.foot[k];
+                const float aside = (py - q.y()) * (py - q.y()) + (pz - q.z()) * (pz - q.z());
+                least = least.min((px - q.x()).square() + aside);
+              }
+              value = least.sqrt();
+            }
+            float* row = &distance[g.index(x0, y, z)];
+            for (int x = x0; x < x1; ++x) row[x - x0] = std::min(row[x - x0], value[x - x0]);
+          }
+      }
+  return rows;
+}
+
+/// No distance may differ from its neighbour's by more than the way to it: takes out most of what was too large.
+void limit_slope(const Grid& g, std::vector<float>& distance) {
+  const std::size_t row = g.n[0], slab = row * g.n[1];
+  const float h = static_cast<float>(g.spacing);
+  const auto follow = [&](float* line, const float* other) {
+    for (int x = 0; x < g.n[0]; ++x) line[x] = std::min(line[x], other[x] + h);
+  };
+  for (int z = 0; z < g.n[2]; ++z)
+    for (int y = 0; y < g.n[1]; ++y) {
+      float* line = &distance[g.index(0, y, z)];
+      if (y > 0) follow(line, line - row);
+      if (z > 0) follow(line, line - slab);
+      for (int x = 1; x < g.n[0]; ++x) line[x] = std::min(line[x], line[x - 1] + h);
+    }
+  for (int z = g.n[2] - 1; z >= 0; --z)
+    for (int y = g.n[1] - 1; y >= 0; --y) {
+      float* line = &distance[g.index(0, y, z)];
+      if (y + 1 < g.n[1]) follow(line, line + row);
+      if (z + 1 < g.n[2]) follow(line, line + slab);
+      for (int x = g.n[0] - 2; x >= 0; --x) line[x] = std::min(line[x], line[x + 1] + h);
+    }
+}
+
 Error refuse(const char* code, const std::string& message, const char* remedy) {
   return Error{Cause::unusable, code, message, remedy, ""};
 }
@@ -213,9 +446,11 @@ Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options)
   field.size = g.n;
   const std::size_t total = static_cast<std::size_t>(g.n[0]) * g.n[1] * g.n[2];
   field.values.assign(total, std::numeric_limits<float>::max());
+  const Surface surface(body);
   std::vector<std::int32_t> nearest(total, -1);
-  fill_band(body, g, field.values, nearest);
-  sweep(body, g, field.values, nearest);
+  fill_band(surface, g, band_voxels * g.spacing, field.values, nearest);
+  sweep(surface, g, fill_far(make_coarse(surface, g), g, field.values), field.values, nearest);
+  limit_slope(g, field.values);
   sign_by_parity(body, g, field.values);
   return field;
 }

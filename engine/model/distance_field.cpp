@@ -11,9 +11,10 @@ double DistanceField::distance(const Vec3& p, Vec3& gradient) const {
   int cell[3];
   double frac[3];
   Vec3 beyond = Vec3::Zero();
+  const double per_metre = 1 / spacing;
   for (int a = 0; a < 3; ++a) {
     const double hi = static_cast<double>(size[a] - 1);
-    double t = (p[a] - origin[a]) / spacing;
+    double t = (p[a] - origin[a]) * per_metre;
     if (!(t >= 0)) {
       beyond[a] = t * spacing;
       t = 0;
@@ -32,14 +33,15 @@ double DistanceField::distance(const Vec3& p, Vec3& gradient) const {
   const double c00 = c000 + x * (c100 - c000), c10 = c010 + x * (c110 - c010);
   const double c01 = c001 + x * (c101 - c001), c11 = c011 + x * (c111 - c011);
   const double c0 = c00 + y * (c10 - c00), c1 = c01 + y * (c11 - c01);
-  gradient.z() = (c1 - c0) / spacing;
-  gradient.y() = ((1 - z) * (c10 - c00) + z * (c11 - c01)) / spacing;
+  gradient.z() = (c1 - c0) * per_metre;
+  gradient.y() = ((1 - z) * (c10 - c00) + z * (c11 - c01)) * per_metre;
   gradient.x() =
-      ((1 - z) * ((1 - y) * (c100 - c000) + y * (c110 - c010)) + z * ((1 - y) * (c101 - c001) + y * (c111 - c011))) /
-      spacing;
+      ((1 - z) * ((1 - y) * (c100 - c000) + y * (c110 - c010)) + z * ((1 - y) * (c101 - c001) + y * (c111 - c011))) *
+      per_metre;
   double d = c0 + z * (c1 - c0);
-  const double out = beyond.norm();
-  if (out > 0) {
+  const double out2 = beyond.squaredNorm();
+  if (out2 > 0) {
+    const double out = std::sqrt(out2);
     d += out;
     gradient = beyond / out;
   }

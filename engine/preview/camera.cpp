@@ -8,7 +8,6 @@
 namespace vitrine {
 namespace {
 
-constexpr double kAngles[] = {0.0, 35.0, 180.0};  // [degree] front, three-quarter, back
 constexpr double kDistance = 3.6;                 // times the subject's size: a portrait lens
 constexpr double kLookDown = 0.20;                // eye above the middle, share of the size: shows the floor's shadow
 constexpr double kMarginSide = 0.05, kMarginTop = 0.035, kMarginBottom = 0.06;  // shares of the frame
@@ -38,7 +37,7 @@ Framing frame_subject(std::span<const RenderMesh> meshes, const PreviewOptions& 
   f.ground = std::min(0.0, low.y());
   f.low = Vec2::Constant(1e30);
   f.high = Vec2::Constant(-1e30);
-  for (double angle : kAngles) {
+  for (double angle : options.turns_deg) {
     const double a = angle * std::numbers::pi / 180.0;
     Camera c;
     c.pivot = Vec3(0.5 * (low.x() + high.x()), 0.0, 0.5 * (low.z() + high.z()));

@@ -23,9 +23,9 @@ struct Camera {
   Vec3 direction(const Vec2& film) const;
 };
 
-/// The three views at one scale.
+/// The views at one scale.
 struct Framing {
-  std::vector<Camera> cameras;  ///< front, three-quarter, back
+  std::vector<Camera> cameras;  ///< one for each turn
   double pixel = 0;             ///< [m] on the film
   Vec2 top_left;                ///< film position of the picture's corner
   Vec2 low, high;               ///< film box of the subject over all views

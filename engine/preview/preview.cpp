@@ -18,10 +18,12 @@ std::optional<Error> check_options(const PreviewOptions& o) {
   const bool automatic = o.frame_bottom < 0 && o.frame_top < 0;
   const bool frame = automatic || (std::isfinite(o.frame_bottom) && std::isfinite(o.frame_top) &&
                                    o.frame_top - o.frame_bottom > 1e-3 && o.frame_top - o.frame_bottom < 1e3);
-  if (size && rays && frame) return std::nullopt;
+  bool turns = !o.turns_deg.empty() && o.turns_deg.size() <= 16;
+  for (double turn : o.turns_deg) turns = turns && std::isfinite(turn);
+  if (size && rays && frame && turns) return std::nullopt;
   return Error{
-      Cause::usage, "BAD_PREVIEW_OPTIONS", "The preview's size, rays or frame are out of range.",
-      "Use 16 to 8192 px, 1 to 256 samples, 0 to 1024 occlusion rays and a frame whose top is above its bottom.",
+      Cause::usage, "BAD_PREVIEW_OPTIONS", "The preview's size, views, rays or frame are out of range.",
+      "Use 16 to 8192 px, 1 to 16 views, 1 to 256 samples, 0 to 1024 occlusion rays and a frame whose top is above its bottom.",
       "preview"};
 }
 

@@ -32,10 +32,10 @@ std::string lower_extension(const std::string& path) {
 }
 
 /// Measurements in millimetres from {"sex": "woman", "height": 1720, ...}.
-std::optional<Error> read_measurements(const std::string& path, Measurements& m) {
+std::optional<Error> read_measurements(const std::string& path, Measurements& m, bool all = false) {
   std::ifstream in(path);
   if (!in)
-    return Error{Cause::missing, "MISSING", path + ": the file cannot be read", "check the path given to --mannequin",
+    return Error{Cause::missing, "MISSING", path + ": the file cannot be read", "check the path and its permissions",
                  "mannequin"};
   const auto broken = [&](const std::string& what) {
     return Error{
@@ -56,6 +56,11 @@ std::optional<Error> read_measurements(const std::string& path, Measurements& m)
     if (field == std::end(measurement_fields)) return broken("unknown measurement \"" + key + "\"");
     if (!value.is_number()) return broken("\"" + key + "\" is not a number");
     m.*(field->field) = value.get<double>() * 1e-3;
+  }
+  if (all) {
+    if (!json.contains("sex")) return broken("\"sex\" is missing");
+    for (const MeasurementField& field : measurement_fields)
+      if (!json.contains(field.name)) return broken(std::string("\"") + field.name + "\" is missing");
   }
   return std::nullopt;
 }
@@ -114,6 +119,7 @@ Result<std::shared_ptr<const Body>> MannequinOptions::make_body() const {
   auto mannequin = measured ? build_mannequin(m) : import_mannequin(file);
   if (!mannequin) return mannequin.error();
   body->mannequin = *std::move(mannequin);
+  for (const std::string& warning : body->mannequin.warnings) spdlog::warn("warning: {}", warning);
   auto field = voxelise(body->mannequin.mesh);
   if (!field) return field.error();
   body->field = *std::move(field);
@@ -156,6 +162,12 @@ std::optional<Error> choose_garment(const PluginRegistry& registry, const std::s
   choice.necklines = registry.necklines();
   choice.others.assign(registry.garments().begin(), registry.garments().end());
   return std::nullopt;
+}
+
+Result<Measurements> read_all_measurements(const std::string& path) {
+  Measurements m;
+  if (auto e = read_measurements(path, m, true)) return *e;
+  return m;
 }
 
 int fail(const Error& error) {

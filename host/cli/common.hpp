@@ -45,12 +45,17 @@ struct JobOptions {
 std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment,
                                     const std::string& neckline, GarmentChoice& choice);
 
+/// Measurements from JSON in millimetres, {"sex": "woman", "height": 1720, ...}; all nine are needed. Error: MISSING
+/// (66), MEASUREMENTS (65) naming the key.
+Result<Measurements> read_all_measurements(const std::string& path);
+
 /// Prints "vitrine: message / remedy" to standard error and returns the exit code.
 int fail(const Error& error);
 
 void add_convert(CLI::App& app, int& exit_code);
 void add_catalog(CLI::App& app, int& exit_code);
 void add_features(CLI::App& app, int& exit_code);
+void add_mannequin(CLI::App& app, int& exit_code);
 void add_plugin(CLI::App& app, int& exit_code);
 
 }  // namespace vitrine::cli

@@ -213,5 +213,61 @@ TEST(BuildMannequin, holds_the_arms_in_an_a_pose) {
   EXPECT_LT(angle, 48);
 }
 
+TEST(BuildMannequin, presets_meet_their_measurements_within_two_millimetres) {
+  for (const char* name : {"woman-xs", "woman-s", "woman-m", "woman-l", "woman-xl", "woman-xxl", "man-xs", "man-s",
+                           "man-m", "man-l", "man-xl", "man-xxl"}) {
+    const Result<Measurements> m = preset_measurements(name);
+    ASSERT_TRUE(m);
+    const Result<Mannequin> body = build_mannequin(*m);
+    ASSERT_TRUE(body) << name << ": " << body.error().message;
+    const std::pair<const char*, double> asked[] = {
+        {"height", m->height}, {"bust", m->bust}, {"under_bust", m->under_bust}, {"waist", m->waist},
+        {"hip", m->hip},       {"arm", m->arm},   {"inside_leg", m->inside_leg}, {"neck_base", m->neck_base}};
+    for (const auto& [size, value] : asked) EXPECT_NEAR(body->girths.at(size), value, 0.002) << name << ' ' << size;
+    EXPECT_GE(body->mesh.triangles.size(), 10000u) << name;
+    EXPECT_LE(body->mesh.triangles.size(), 20000u) << name;
+  }
+  EXPECT_EQ(preset_measurements("woman-xxxl").error().code, "UNKNOWN_PRESET");
+}
+
+TEST(BuildMannequin, names_unusual_measurements_and_leaves_usual_ones_alone) {
+  Measurements m = *preset_measurements("woman-m");
+  EXPECT_TRUE(unusual_measurements(m).empty());
+  m.arm = 0.38 * m.height;
+  const std::vector<std::string> unusual = unusual_measurements(m);
+  ASSERT_EQ(unusual.size(), 1u);
+  EXPECT_EQ(unusual.front().rfind("arm is 0.380 of the height", 0), 0u) << unusual.front();
+}
+
+TEST(BuildMannequin, gives_a_sound_body_or_the_range_that_works_at_the_corners_of_what_it_accepts) {
+  int built = 0, refused = 0;
+  for (unsigned corner = 0; corner < 256; corner += 5) {
+    const auto end = [corner](int bit, double low, double high) { return (corner >> bit & 1) != 0 ? high : low; };
+    Measurements m;
+    m.sex = corner % 2 == 0 ? "woman" : "man";
+    m.height = end(0, 1.5, 2.0);
+    m.bust = end(1, 0.75, 1.4);
+    m.under_bust = m.bust - end(2, 0.02, 0.22);
+    m.waist = m.bust + end(3, -0.25, 0.15);
+    m.hip = m.bust + end(4, -0.1, 0.2);
+    m.inside_leg = m.height * end(5, 0.43, 0.52);
+    m.arm = m.height * end(6, 0.29, 0.38);
+    m.neck_base = end(7, 0.32, 0.5);
+    const Result<Mannequin> body = build_mannequin(m);
+    if (!body) {
+      ++refused;
+      EXPECT_EQ(body.error().code, "IMPLAUSIBLE_MEASUREMENTS") << body.error().message;
+      continue;
+    }
+    ++built;
+    EXPECT_NEAR(body->girths.at("bust"), m.bust, 0.005);
+    EXPECT_NEAR(body->girths.at("hip"), m.hip, 0.005);
+    EXPECT_NEAR(body->girths.at("inside_leg"), m.inside_leg, 0.005);
+    for (const auto& [name, at] : body->landmarks) EXPECT_TRUE(at.allFinite()) << name;
+  }
+  EXPECT_EQ(built + refused, 52);
+  EXPECT_GT(built, 20);
+}
+
 }  // namespace
 }  // namespace vitrine

@@ -123,7 +123,7 @@ TEST(ImportMannequin, refuses_what_is_no_standing_body) {
   expect_refused(write_obj("board", box_mesh(Vec3(0.25, 0.85, 0.12), Vec3::Zero())), "NOT_A_BODY");
   expect_refused(write_obj("doll", reference().mesh, 0.2), "NOT_A_BODY");
   TriMesh lying = reference().mesh;
-  for (Vec3& v : lying.vertices) v = Vec3(v.x(), -v.z(), v.y());
+  for (Vec3& v : lying.vertices) v = Vec3(v.y(), v.x(), v.z());
   expect_refused(write_obj("lying", lying), "NOT_A_BODY");
   TriMesh pair = reference().mesh;
   const auto base = static_cast<std::uint32_t>(pair.vertices.size());
@@ -131,6 +131,27 @@ TEST(ImportMannequin, refuses_what_is_no_standing_body) {
   for (const Triangle& t : reference().mesh.triangles)
     pair.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
   expect_refused(write_obj("pair", pair), "NOT_A_BODY");
+}
+
+TEST(ImportMannequin, turns_a_body_that_stands_along_z_upright_and_says_so) {
+  TriMesh mesh = reference().mesh;
+  for (Vec3& v : mesh.vertices) v = 1000 * Vec3(v.x(), -v.z(), v.y());
+  const Result<Mannequin> turned = import_mannequin(write_obj("z_up", mesh));
+  ASSERT_TRUE(turned) << turned.error().message;
+  EXPECT_NEAR(turned->girths.at("height"), reference().girths.at("height"), 1e-4);
+  EXPECT_NEAR(turned->girths.at("hip"), reference().girths.at("hip"), 0.01);
+  ASSERT_EQ(turned->warnings.size(), 2u);
+  EXPECT_NE(turned->warnings[0].find("+Z"), std::string::npos);
+  EXPECT_NE(turned->warnings[1].find("millimetres"), std::string::npos);
+}
+
+TEST(ImportMannequin, names_the_place_of_an_open_edge) {
+  TriMesh mesh = reference().mesh;
+  mesh.triangles.pop_back();
+  const Result<Mannequin> body = import_mannequin(write_obj("one_hole", mesh));
+  ASSERT_FALSE(body);
+  EXPECT_NE(body.error().message.find("3 open"), std::string::npos) << body.error().message;
+  EXPECT_NE(body.error().message.find("the first from ("), std::string::npos) << body.error().message;
 }
 
 TEST(ImportMannequin, measures_mannequins_that_others_made) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <string>
+#include <vector>
 
 #include "vitrine/model/body.hpp"
 #include "vitrine/model/result.hpp"
@@ -20,6 +21,13 @@ struct Measurements {
   double neck_base = 0.365;
 };
 
+/// Shop sizes: "woman-" or "man-" with xs, s, m, l, xl, xxl. Error: UNKNOWN_PRESET (64).
+Result<Measurements> preset_measurements(const std::string& name);
+
+/// One sentence for every measurement, difference or share of the height that lies outside 1-99 % of the ANSUR II
+/// survey: such a body can be built, but it may be a slip of the pen.
+std::vector<std::string> unusual_measurements(const Measurements& measurements);
+
 struct MannequinOptions {
   double surface_spacing = 0.019;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
   double arm_angle_deg = 42;  ///< [degree] of the arms from the vertical (A-pose); more where a wide chest needs it
@@ -34,9 +42,9 @@ struct VoxelOptions {
 /// work, BAD_OPTION (64).
 Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options = {});
 
-/// Any watertight OBJ, GLB or PLY in metres, +Y up (guessed: a height of 140-220 is centimetres, 1400-2200
-/// millimetres); landmarks and girths are found on the mesh. Errors: MISSING_FILE (66); NOT_A_MESH,
-/// NOT_WATERTIGHT, NOT_A_BODY, TOO_LARGE (65).
+/// Any watertight OBJ, GLB, PLY or DAE, front towards +Z (or standing along +Z, front towards -Y). Metres; a height of
+/// 140-220 is taken for centimetres, 1400-2200 for millimetres. What was guessed is in `warnings`. Landmarks and girths
+/// are found on the mesh. Errors: MISSING_FILE (66); NOT_A_MESH, NOT_WATERTIGHT, NOT_A_BODY, TOO_LARGE (65).
 Result<Mannequin> import_mannequin(const std::string& path);
 
 /// Signed distance on voxels around the body (paper III.C). Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).

@@ -19,7 +19,8 @@ struct Mannequin {
   /// Girths measured on the mesh [m]: bust, under_bust, waist, hip, neck_base, biceps, wrist, thigh; and height,
   /// inside_leg, arm.
   std::map<std::string, double> girths;
-  std::string source;  ///< "built-in woman", or the file's name
+  std::string source;                 ///< "built-in woman", or the file's name
+  std::vector<std::string> warnings;  ///< unusual measurements; what an import had to guess
 };
 
 /// Signed distance to the body on a regular grid of voxels (paper III.C): negative inside, metres.
