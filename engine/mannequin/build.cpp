@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "figure.hpp"
 #include "marching.hpp"
@@ -20,9 +22,24 @@ struct Tapes {
   double under_bust, bust, waist, hip, neck;
 };
 
+/// The level between the hips' ends where `girth` is largest, and that girth. Hips are measured where they are fullest:
+/// on some people at the buttocks, on some just above the crotch.
+struct Fullest {
+  double level = 0, girth = 0;
+};
+template <typename Girth>
+Fullest fullest_hips(const Figure& f, int levels, const Girth& girth) {
+  Fullest best;
+  for (int i = 0; i < levels; ++i) {
+    const double level = f.hips_low + (f.hips_high - f.hips_low) * i / (levels - 1);
+    if (const double found = girth(level); found > best.girth) best = {level, found};
+  }
+  return best;
+}
+
 Tapes read_tapes(const Figure& f) {
   const auto level = [&f](double y) { return f.tape({0, y, 0.01}, Vec3::UnitX(), Vec3::UnitZ()); };
-  return {level(f.under_bust_height), level(f.bust_height), level(f.waist_height), level(f.hip_height),
+  return {level(f.under_bust_height), level(f.bust_height), level(f.waist_height), fullest_hips(f, 5, level).girth,
           f.tape(f.neck_base, Vec3::UnitX(), f.neck_forward)};
 }
 
@@ -43,7 +60,22 @@ Unknowns first_guess(const Measurements& m) {
   return u;
 }
 
-using Vec8 = Eigen::Matrix<double, 8, 1>;
+using Vec8 = Eigen::Matrix<double, 8, 1>;  ///< in the order of `sizes`
+
+/// What the solver reaches for, in its order.
+struct Size {
+  const char* name;
+  double Measurements::*value;
+};
+constexpr Size sizes[] = {{"under_bust", &Measurements::under_bust},
+                          {"bust", &Measurements::bust},
+                          {"waist", &Measurements::waist},
+                          {"hip", &Measurements::hip},
+                          {"neck_base", &Measurements::neck_base},
+                          {"inside_leg", &Measurements::inside_leg},
+                          {"arm", &Measurements::arm},
+                          {"arm", &Measurements::arm}};
+constexpr int girths_and_leg = 6;  ///< the sizes that are corrected on the mesh
 
 Vec8 pack(const Unknowns& u) {
   Vec8 x;
@@ -121,14 +153,31 @@ void stand(TriMesh& mesh, double height) {
   for (Vec3& v : mesh.vertices) v.y() = (v.y() - low) * (height / (high - low));
 }
 
+/// Where the ray from an inside point first leaves the mesh; `from` itself if it never does.
+Vec3 skin(const TriMesh& mesh, const Vec3& from, const Vec3& direction) {
+  double first = 1e9;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
+    const Vec3 across = direction.cross(ac);
+    const double turn = ab.dot(across);
+    if (!(turn < -1e-16)) continue;  // seen from inside, an outward triangle turns the other way
+    const double u = (from - a).dot(across) / turn;
+    const Vec3 around = (from - a).cross(ab);
+    const double v = direction.dot(around) / turn, way = ac.dot(around) / turn;
+    if (u >= -1e-9 && v >= -1e-9 && u + v <= 1 + 1e-9 && way > 0) first = std::min(first, way);
+  }
+  return first < 1e9 ? Vec3(from + first * direction) : from;
+}
+
 void set_pair(Mannequin& body, const std::string& name, const Vec3& right) {
   body.landmarks[name + "_right"] = right;
   body.landmarks[name + "_left"] = Vec3(-right.x(), right.y(), right.z());
 }
 
-void describe(const Figure& f, const Measurements& m, const BodyPlan& plan, Mannequin& body) {
+void describe(const Figure& f, const BodyPlan& plan, Mannequin& body) {
   auto& mark = body.landmarks;
   const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
+  const auto out = [&body](const Vec3& from, const Vec3& way) { return skin(body.mesh, from, way); };
   const auto side = [&](double level) {
     Vec3 best = Vec3::Zero();
     for (double depth = -0.10; depth <= 0.1001; depth += 0.005) {
@@ -139,9 +188,9 @@ void describe(const Figure& f, const Measurements& m, const BodyPlan& plan, Mann
     }
     return best;
   };
-  set_pair(body, "neck", f.exit(f.neck_base, x));
-  mark["neck_front"] = f.exit(f.neck_base, f.neck_forward);
-  mark["neck_back"] = f.exit(f.neck_base, -f.neck_forward);
+  set_pair(body, "neck", out(f.neck_base, x));
+  mark["neck_front"] = out(f.neck_base, f.neck_forward);
+  mark["neck_back"] = out(f.neck_base, -f.neck_forward);
   set_pair(body, "shoulder", acromion_of(f));
   // The armpit: the highest free point below the arm, found by climbing between chest and arm.
   Vec3 armpit = side(f.bust_height);
@@ -152,12 +201,15 @@ void describe(const Figure& f, const Measurements& m, const BodyPlan& plan, Mann
     armpit = p;
   }
   set_pair(body, "armpit", armpit);
-  set_pair(body, "bust", f.exit({f.bust_apart, f.bust_height, 0.0}, z));
-  mark["under_bust"] = f.exit({0, f.under_bust_height, 0}, z);
-  mark["waist"] = f.exit({0, f.waist_height, 0}, z);
+  set_pair(body, "bust", out({f.bust_apart, f.bust_height, 0.0}, z));
+  mark["under_bust"] = out({0, f.under_bust_height, 0}, z);
+  mark["waist"] = out({0, f.waist_height, 0}, z);
   set_pair(body, "waist", side(f.waist_height));
-  mark["hip"] = f.exit({0, f.hip_height, 0}, z);
-  set_pair(body, "hip", side(f.hip_height));
+  const double hips = fullest_hips(f, 12, [&body](double y) {
+                        return widest_tape(body.mesh, {0, y, 0.01}, Vec3::UnitY());
+                      }).level;
+  mark["hip"] = out({0, hips, 0}, z);
+  set_pair(body, "hip", side(hips));
   const Vec3 biceps = f.arm_root + 0.5 * (f.elbow - f.arm_root);
   set_pair(body, "biceps", biceps);
   set_pair(body, "elbow", f.elbow);
@@ -177,7 +229,7 @@ void measure(const Figure& f, Mannequin& body) {
   girth["bust"] = level(f.bust_height);
   girth["under_bust"] = level(f.under_bust_height);
   girth["waist"] = level(f.waist_height);
-  girth["hip"] = level(f.hip_height);
+  girth["hip"] = level(body.landmarks.at("hip").y());
   girth["neck_base"] = widest_tape(mesh, f.neck_base, f.neck_forward.cross(Vec3::UnitX()));
   const auto& mark = body.landmarks;
   girth["biceps"] = widest_tape(mesh, mark.at("biceps_right"), f.arm_axis);
@@ -190,27 +242,118 @@ void measure(const Figure& f, Mannequin& body) {
                  (mark.at("wrist_right") - mark.at("elbow_right")).norm();
 }
 
-/// Names the measurement that could not be reached, and the nearest that can, as far as the solver came.
-Error impossible(const Measurements& m, const Vec8& miss) {
-  const struct {
-    const char* name;
-    double value;
-  } sizes[] = {
-      {"under_bust", m.under_bust}, {"bust", m.bust}, {"waist", m.waist}, {"hip", m.hip}, {"neck_base", m.neck_base},
-      {"inside_leg", m.inside_leg}, {"arm", m.arm},   {"arm", m.arm}};
-  Eigen::Index worst = 0;
-  miss.cwiseAbs().maxCoeff(&worst);
-  const double asked = sizes[worst].value * 1e3, reached = asked - miss[worst] * 1e3;
-  char text[240];
-  if (std::isfinite(reached))
+constexpr double solver_bar = 3e-3;  ///< [m] what the solid may miss
+constexpr double mesh_bar = 5e-3;    ///< [m] what the mesh may miss before the body is refused
+
+/// A body, or how far the solver came.
+struct Attempt {
+  Mannequin body;
+  Vec8 missed = Vec8::Zero();  ///< [m] by the mesh or, where `solved` is false, by the solid
+  bool solved = false;
+  bool good() const { return solved && missed.cwiseAbs().maxCoeff() <= mesh_bar; }
+};
+
+Attempt attempt(const Measurements& m, const MannequinOptions& options) {
+  const BodyPlan plan = plan_body(m);
+  const double angle = options.arm_angle_deg * 0.017453292519943295;
+  Unknowns unknowns = first_guess(m);
+  // Large bodies take larger triangles, so that their number stays.
+  const double skin = m.height * (m.bust + m.waist + m.hip);
+  const double spacing = options.surface_spacing * std::clamp(std::sqrt(skin / 4.4), 0.75, 1.5);
+  Measurements aim = m;
+  Attempt result;
+  TriMesh& mesh = result.body.mesh;
+  // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
+  // mesh of the first follows the solid.
+  for (int round = 0; round < 5; ++round) {
+    const Vec8 miss = solve(m, aim, plan, angle, unknowns);
+    if (!(miss.cwiseAbs().maxCoeff() < solver_bar)) return {{}, miss, false};
+    const Figure figure(m, plan, angle, unknowns);
+    const Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
+                          [&](const Vec3& p) { return spacing * figure.detail(p); }};
+    if (round == 0) {
+      mesh = march(surface.distance, figure.low, figure.high, 0.5 * options.surface_spacing, -0.010);
+      remesh(mesh, surface, 4);
+    } else {
+      settle(mesh, surface);
+    }
+    stand(mesh, m.height);
+    describe(figure, plan, result.body);
+    measure(figure, result.body);
+    for (int i = 0; i < girths_and_leg; ++i) {
+      result.missed[i] = m.*sizes[i].value - result.body.girths.at(sizes[i].name);
+      aim.*sizes[i].value += std::clamp(result.missed[i], -0.01, 0.01);
+    }
+    if (result.missed.cwiseAbs().maxCoeff() < 4e-4) break;
+  }
+  result.solved = true;
+  return result;
+}
+
+/// Values of one measurement with which the others make a body [m].
+struct Range {
+  double low = 0, high = 0;
+};
+
+/// The values of `size` nearest to the one in `m` that make a body: looked for on the solid, both ends tried on the
+/// mesh.
+std::optional<Range> range_that_works(Measurements m, double Measurements::*size, const MannequinOptions& options) {
+  const double asked = m.*size;
+  const auto works = [&](double value) {
+    m.*size = value;
+    if (!check_measurements(m)) return false;
+    Unknowns unknowns = first_guess(m);
+    const Vec8 miss = solve(m, m, plan_body(m), options.arm_angle_deg * 0.017453292519943295, unknowns);
+    return miss.cwiseAbs().maxCoeff() < solver_bar;
+  };
+  constexpr double step = 0.02;
+  double near = 0, way = 0;
+  for (int i = 1; i <= 25 && way == 0; ++i)
+    for (const double side : {1.0, -1.0})
+      if (way == 0 && works(asked + side * i * step)) {
+        near = asked + side * i * step;
+        way = side;
+      }
+  if (way == 0) return std::nullopt;
+  double far = near;
+  while (std::abs(far - asked) < 0.6 && works(far + way * step)) far += way * step;
+  // The ends lie within a step of the values that failed: found to the millimetre, and safe by one.
+  const auto refine = [&](double good, double bad) {
+    while (std::abs(good - bad) > 1e-3) (works(0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
+    return good;
+  };
+  const double inner = refine(near, near - way * step) + way * 1e-3, outer = refine(far, far + way * step) - way * 1e-3;
+  const auto whole = [&](double value) {
+    m.*size = value;
+    return attempt(m, options).good();
+  };
+  // What the mesh makes of an end may differ: then the range shrinks towards what is known to work.
+  double ends[2] = {inner, outer};
+  for (double& end : ends)
+    for (int i = 0; i < 4 && !whole(end); ++i) end += 0.5 * ((&end == ends ? outer : inner) - end);
+  for (const double end : ends)
+    if (!whole(end)) return std::nullopt;
+  return Range{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+}
+
+/// Names the measurement to change, the one that is missed most first, and the range that works.
+Error impossible(const Measurements& m, const Vec8& miss, const MannequinOptions& options) {
+  std::array<int, 7> order{0, 1, 2, 3, 4, 5, 6};
+  const auto badly = [&miss](int i) { return std::isfinite(miss[i]) ? std::abs(miss[i]) : 1e9; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return badly(a) > badly(b); });
+  for (const int i : order) {
+    const std::optional<Range> range = range_that_works(m, sizes[i].value, options);
+    if (!range) continue;
+    char text[240];
     std::snprintf(text, sizeof text,
-                  "No body with these other measurements has a %s of %.0f mm: %s %.0f mm works, %s does not.",
-                  sizes[worst].name, asked, miss[worst] > 0 ? "up to about" : "from about", reached,
-                  miss[worst] > 0 ? "more" : "less");
-  else
-    std::snprintf(text, sizeof text, "No body has these measurements together.");
-  return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", text,
-               "Check bust, under_bust, waist, hip, inside_leg and neck_base against each other.", ""};
+                  "No body with these other measurements has a %s of %.0f mm: %.0f to %.0f mm works.", sizes[i].name,
+                  m.*sizes[i].value * 1e3, std::ceil(range->low * 1e3), std::floor(range->high * 1e3));
+    return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", text,
+                 std::string("Give a ") + sizes[i].name + " within that range, or check the other measurements.", ""};
+  }
+  return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS",
+               "No body has these measurements, and changing a single one does not help.",
+               "Start from a preset of that size (woman-m, man-l, ...) and change what is known.", ""};
 }
 
 }  // namespace
@@ -222,55 +365,17 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
       !(options.arm_angle_deg >= 35 && options.arm_angle_deg <= 60))
     return Error{Cause::usage, "BAD_OPTION", "The mannequin's surface spacing or arm angle is out of range.",
                  "Give a spacing of 0.008 to 0.03 m and an arm angle of 35 to 60 degrees.", ""};
-  const body::BodyPlan plan = body::plan_body(measurements);
-  const double angle = options.arm_angle_deg * 0.017453292519943295;
-  body::Unknowns unknowns = body::first_guess(measurements);
-  // Large bodies take larger triangles, so that their number stays.
-  const double skin = measurements.height * (measurements.bust + measurements.waist + measurements.hip);
-  const double spacing = options.surface_spacing * std::clamp(std::sqrt(skin / 4.4), 1.0, 1.5);
-  Measurements aim = measurements;
-  Mannequin result;
+  body::Attempt made = body::attempt(measurements, options);
+  if (!made.good()) return body::impossible(measurements, made.missed, options);
+  Mannequin& result = made.body;
   result.source = "built-in " + measurements.sex;
   result.warnings = unusual_measurements(measurements);
-  // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
-  // mesh of the first follows the solid.
-  body::Vec8 left = body::Vec8::Zero();  ///< what the mesh still misses [m]
-  double worst = 0;
-  for (int round = 0; round < 5; ++round) {
-    const body::Vec8 miss = body::solve(measurements, aim, plan, angle, unknowns);
-    if (!(miss.cwiseAbs().maxCoeff() < 3e-3)) return body::impossible(measurements, miss);
-    const body::Figure figure(measurements, plan, angle, unknowns);
-    const body::Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
-                                [&](const Vec3& p) { return spacing * figure.detail(p); }};
-    if (round == 0) {
-      result.mesh = body::march(surface.distance, figure.low, figure.high, 0.5 * options.surface_spacing, -0.010);
-      body::remesh(result.mesh, surface, 4);
-    } else {
-      body::settle(result.mesh, surface);
-    }
-    body::stand(result.mesh, measurements.height);
-    body::describe(figure, measurements, plan, result);
-    body::measure(figure, result);
-    const auto correct = [&](Eigen::Index row, double Measurements::*size, const char* name) {
-      left[row] = measurements.*size - result.girths.at(name);
-      aim.*size += std::clamp(left[row], -0.01, 0.01);
-    };
-    correct(0, &Measurements::under_bust, "under_bust");
-    correct(1, &Measurements::bust, "bust");
-    correct(2, &Measurements::waist, "waist");
-    correct(3, &Measurements::hip, "hip");
-    correct(4, &Measurements::neck_base, "neck_base");
-    correct(5, &Measurements::inside_leg, "inside_leg");
-    worst = left.cwiseAbs().maxCoeff();
-    if (worst < 4e-4) break;
-  }
-  if (worst > 5e-3) return body::impossible(measurements, left);
   if (const body::MeshState state = body::inspect(result.mesh); !state.closed() || state.parts != 1)
     return Error{Cause::internal, "BODY_NOT_CLOSED",
                  "The built-in body did not close: " + std::to_string(state.open_edges) + " open, " +
                      std::to_string(state.crowded_edges) + " crowded edges, " + std::to_string(state.parts) + " parts.",
                  "Report the eight measurements; slightly different ones will work.", ""};
-  return result;
+  return std::move(result);
 }
 
 }  // namespace vitrine

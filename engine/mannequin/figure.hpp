@@ -36,6 +36,7 @@ class Figure {
 
   // Where things are; heights and points [m].
   double bust_height = 0, under_bust_height = 0, waist_height = 0, hip_height = 0;
+  double hips_low = 0, hips_high = 0;  ///< between these levels the hips are measured where they are fullest
   double knee_height = 0, ankle_height = 0;
   double bust_apart = 0;                    ///< half the distance of the bust points
   double breast = 0;                        ///< how far the breasts stand out of the chest

@@ -33,7 +33,7 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
   ankle_height = 0.040 * h;
   const double below = knee / 0.2756;  // stretches the lower leg's stations with the knee's height
   const double ratio = 1.12;
-  Section thigh = station(crotch - 0.012 * h, 0, 0.004 * h, plan.thigh_girth, ratio, 0.5);
+  Section thigh = station(crotch - 0.012 * h, 0, -0.001 * h, plan.thigh_girth, ratio, 0.5);
   // Thighs keep apart, and do not stand out further than the hips.
   const double gap = 0.012;
   const double widest = std::max(0.5 * (hip_half_ - gap), 0.03 * h);
@@ -67,8 +67,8 @@ void Figure::make_leg(const Measurements& m, const BodyPlan& plan, const Unknown
   s.push_back(station(knee, x_at(knee), -0.001 * h, knee_girth, 1.06, 0.52));
   s.push_back(station(knee + 0.17 * (crotch - knee), x_at(knee), 0.002 * h, lower, 1.06, 0.52));
   const double up = crotch - knee;
-  s.push_back(station(knee + 0.45 * up, x_at(knee + 0.45 * up), 0.006 * h, girth_at(0.45), 1.08, 0.53));
-  s.push_back(station(knee + 0.72 * up, x_at(knee + 0.72 * up), 0.006 * h, girth_at(0.80), 1.10, 0.52));
+  s.push_back(station(knee + 0.45 * up, x_at(knee + 0.45 * up), 0.003 * h, girth_at(0.45), 1.08, 0.53));
+  s.push_back(station(knee + 0.72 * up, x_at(knee + 0.72 * up), 0.001 * h, girth_at(0.80), 1.10, 0.52));
   // No thigh on the way up may reach past the middle, or stand out further than the hips: what breadth it loses there
   // it gets back in depth.
   for (Section& section : s) {

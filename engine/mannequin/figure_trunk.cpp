@@ -57,6 +57,8 @@ Figure::Figure(const Measurements& m, const BodyPlan& plan, double arm_angle, co
   bust_height = std::max(std::min(bust_height, highest_bust(m, plan)), 0.68 * h);
   if (bust_height < waist_height + 0.07 * h) waist_height = bust_height - 0.07 * h;
   under_bust_height = bust_height - (woman_ ? 0.036 : 0.035) * h;
+  hips_low = m.inside_leg + 0.008 * h;
+  hips_high = std::max(hip_height, 0.56 * h);
   make_trunk(m, plan, u);
   make_head(m, plan, u);
   make_leg(m, plan, u);
@@ -89,9 +91,9 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   };
   // Like briefs: below the hips the trunk draws in early and the thighs take over the outline.
   share_of_hip(y0, 0.14, 0.34, 0.44);
-  share_of_hip(y0 + 0.35 * (y1 - y0), 0.42, 0.62, 0.74);
-  share_of_hip(y0 + 0.70 * (y1 - y0), 0.64, 0.82, 0.90);
-  share_of_hip(y1, 0.86, 0.95, 0.98);
+  share_of_hip(y0 + 0.35 * (y1 - y0), 0.34, 0.62, 0.74);
+  share_of_hip(y0 + 0.70 * (y1 - y0), 0.54, 0.82, 0.90);
+  share_of_hip(y1, 0.82, 0.95, 0.98);
   // Differences of girth, not ratios, run from landmark to landmark; the S-curves keep hips round and the waist soft.
   const auto between = [&](double t, double share) {
     const double y = y1 + t * (y2 - y1);
@@ -101,14 +103,17 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
                       ((woman_ ? 0.020 : 0.012) - (woman_ ? 0.016 : 0.008) * w) * h,
                       0.52 + belly * (1 - w * w) - 0.06 * w * w, 2.3, 2.35));
   };
-  between(0.25, 0.95);
-  between(0.50, 0.68);
-  between(0.75, 0.27);
+  // Where the waist is larger than the hips, the belly begins above them.
+  const bool belly_first = u.waist > u.hip;
+  between(0.25, belly_first ? 1.0 : 0.95);
+  between(0.50, belly_first ? 0.95 : 0.68);
+  between(0.75, belly_first ? 0.40 : 0.27);
   s.push_back(sized(y2, u.waist, ratio_waist, (woman_ ? 0.020 : 0.012) * h, 0.52 + belly, 2.25, 2.4));
   s.push_back(sized(y2 + 0.5 * (y3 - y2), u.waist + 0.48 * (u.under_bust - u.waist), 0.5 * (ratio_waist + ratio_ribs),
-                    (woman_ ? 0.021 : 0.012) * h, 0.52 + 0.9 * belly, 2.3, 2.5));
-  s.push_back(sized(y3, u.under_bust, ratio_ribs, (woman_ ? 0.020 : 0.013) * h, 0.52 + 0.75 * belly, 2.35, 2.6));
-  const Section chest = sized(y4, chest_girth, ratio_chest, 0.014 * h, 0.50 + 0.75 * belly, woman_ ? 2.3 : 2.5, 2.6);
+                    (woman_ ? 0.0195 : 0.012) * h, 0.515 + 0.9 * belly, 2.3, 2.5));
+  s.push_back(sized(y3, u.under_bust, ratio_ribs, (woman_ ? 0.018 : 0.013) * h, 0.51 + 0.75 * belly, 2.35, 2.6));
+  const Section chest = sized(y4, chest_girth, ratio_chest, (woman_ ? 0.017 : 0.014) * h,
+                              (woman_ ? 0.52 : 0.50) + 0.75 * belly, woman_ ? 2.3 : 2.5, 2.6);
   s.push_back(chest);
   chest_half_ = chest.a;
   // Above the bust the bones decide: the trunk closes in a dome under the shoulder girdle.
@@ -146,8 +151,8 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   breast_.z = 0.016 * h + breast;
 
   const double behind = hip.z - hip.back;
-  seat_.centre = Vec3(0.47 * hip.a, y1 + 0.004 * h, behind + 0.045 * h);
-  seat_.x = 0.46 * hip.a;
+  seat_.centre = Vec3(0.44 * hip.a, y1 + 0.004 * h, behind + 0.045 * h);
+  seat_.x = 0.38 * hip.a;
   seat_.up = 0.062 * h;
   seat_.down = 0.042 * h;
   seat_.z = 0.050 * h;

@@ -239,21 +239,26 @@ class Finder {
         y0 = y;
       }
     const double step = 0.004 * h_;
-    double side_y = 0;
+    double side_y = 0, before = 0;
     std::optional<Ring> last = neck_ring(y0);
     for (double y = y0 - step; last && y > 0.78 * h_; y -= step) {
       std::optional<Ring> ring = neck_ring(y);
       if (!ring) return false;
-      if (ring->high.x() - ring->low.x() - (last->high.x() - last->low.x()) > 2 * step) {
-        side_y = y + 0.5 * step;
+      // Both sides together widen by twice the way down where they stand at 45 degrees.
+      const double slope = (ring->high.x() - ring->low.x() - (last->high.x() - last->low.x())) / step;
+      if (slope > 2) {
+        side_y = y + (0.5 + (slope - 2) / std::max(slope - before, 1e-9)) * step;
         break;
       }
+      before = slope;
       last = std::move(ring);
     }
     if (side_y == 0) return false;
     sides("neck", *last);
-    // C7 lies a little higher than the side of the neck, the pit of the throat lower (ANSUR II).
-    const auto back = neck_ring(side_y + 0.008 * h_), front = neck_ring(side_y - 0.026 * h_);
+    // C7 lies at 0.8605 of the height (ANSUR II, women and men), a little above the side of the neck; the pit of the
+    // throat lies lower.
+    const auto back = neck_ring(std::clamp(0.8605 * h_, side_y + 0.001 * h_, side_y + 0.012 * h_)),
+               front = neck_ring(side_y - 0.026 * h_);
     if (!back || !front) return false;
     const Vec3 c7 = midline(*back, -1), pit = midline(*front, 1);
     mark_["neck_back"] = c7;

@@ -14,7 +14,7 @@ namespace vitrine {
 
 namespace {
 
-constexpr std::size_t most_voxels = std::size_t{1} << 27;  ///< 128 M: 0.5 GB of floats, 0.5 GB of triangle numbers
+constexpr std::size_t most_voxels = std::size_t{1} << 27;  ///< 128 M: 0.5 GB of floats
 constexpr std::size_t most_triangles = 2'000'000;
 
 /// Point of the triangle a b c nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
@@ -39,42 +39,86 @@ Vec3 nearest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   return a + vb / denominator * ab + vc / denominator * ac;
 }
 
-/// A triangle prepared for many questions. Two projections decide where the nearest point lies (Ericson 5.1.5, with
-/// the products that do not depend on p worked out once), and give the distance without it.
+/// A triangle prepared for many questions, in floats about its own first corner: there 1e-7 is less than a nanometre.
 class Facet {
  public:
-  Facet(const Vec3& a, const Vec3& b, const Vec3& c)
-      : a_(a),
-        ab_(b - a),
-        ac_(c - a),
-        normal_(ab_.cross(ac_).normalized()),
-        ab2_(ab_.squaredNorm()),
-        ac2_(ac_.squaredNorm()),
-        abac_(ab_.dot(ac_)) {}
+  Facet(const Vec3& a, const Vec3& b, const Vec3& c) : a_(a) {
+    const Vec3 corner[3] = {Vec3::Zero(), b - a, c - a};
+    const Vec3 normal = corner[1].cross(corner[2]).normalized();
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 along = corner[(i + 1) % 3] - corner[i], out = along.cross(normal);
+      const double length2 = along.squaredNorm();
+      side_[i] = {corner[i].cast<float>(), along.cast<float>(), out.cast<float>(),
+                  length2 > 0 ? static_cast<float>(1 / length2) : 0.0F};
+    }
+    const Vec3 middle = (corner[1] + corner[2]) / 3;
+    for (const Vec3& at : corner) radius_ = std::max(radius_, static_cast<float>((at - middle).norm()));
+    middle_ = middle.cast<float>();
+    normal_ = normal.cast<float>();
+    // A triangle without area has only its edges.
+    if (!(normal.squaredNorm() > 0.5)) beyond_ = 1;
+  }
 
-  double height(const Vec3& p) const { return std::abs((p - a_).dot(normal_)); }
+  const Vec3& origin() const { return a_; }
+
+  /// Squared distances [m^2] of `count` points that begin at p, relative to origin(), and lie `step` apart along x. No
+  /// branches, so that the compiler works on several points at a time.
+  void distances2(const Eigen::Vector3f& p, float step, int count, float* out) const {
+    for (int k = 0; k < count; ++k) {
+      const float x = p.x() + step * static_cast<float>(k), y = p.y(), z = p.z();
+      const float h = normal_.x() * x + normal_.y() * y + normal_.z() * z;
+      float edges = std::numeric_limits<float>::max(), beyond = beyond_;
+      for (const Side& s : side_) {
+        const float u = x - s.corner.x(), v = y - s.corner.y(), w = z - s.corner.z();
+        float t = (u * s.along.x() + v * s.along.y() + w * s.along.z()) * s.per_length2;
+        t = t < 0.0F ? 0.0F : t;
+        t = t > 1.0F ? 1.0F : t;
+        const float du = u - t * s.along.x(), dv = v - t * s.along.y(), dw = w - t * s.along.z();
+        const float d = du * du + dv * dv + dw * dw, o = u * s.out.x() + v * s.out.y() + w * s.out.z();
+        edges = d < edges ? d : edges;
+        beyond = o > beyond ? o : beyond;
+      }
+      // Above the triangle itself, the way to its plane counts.
+      out[k] = beyond > 0.0F ? edges : h * h;
+    }
+  }
+
+  /// Of `count` points that begin at p, `step` apart along x: from which and before which one they can be closer than
+  /// `band` to the triangle, by its plane and by the ball around it.
+  std::array<int, 2> within(const Eigen::Vector3f& p, float step, int count, float band) const {
+    const Eigen::Vector3f d = p - middle_;
+    const float ball = (radius_ + band) * (radius_ + band) - d.y() * d.y() - d.z() * d.z();
+    if (ball <= 0) return {0, 0};
+    const float half = std::sqrt(ball);
+    float low = -d.x() - half, high = -d.x() + half;
+    const float height = normal_.dot(p), slope = normal_.x();
+    if (std::abs(slope) > 1e-3F) {
+      const float at = -height / slope, reach = band / std::abs(slope);
+      low = std::max(low, at - reach);
+      high = std::min(high, at + reach);
+    } else if (std::abs(height) > 2 * band) {
+      return {0, 0};
+    }
+    const float last = static_cast<float>(count);
+    return {static_cast<int>(std::clamp(std::ceil(low / step), 0.0F, last)),
+            static_cast<int>(std::clamp(std::floor(high / step) + 1, 0.0F, last))};
+  }
 
   double distance2(const Vec3& p) const {
-    const Vec3 ap = p - a_;
-    const double ap2 = ap.squaredNorm(), d1 = ab_.dot(ap), d2 = ac_.dot(ap);
-    if (d1 <= 0 && d2 <= 0) return ap2;
-    const double d3 = d1 - ab2_, d4 = d2 - abac_, d5 = d1 - abac_, d6 = d2 - ac2_;
-    if (d3 >= 0 && d4 <= d3) return std::max(0.0, ap2 - d1 - d3);
-    if (d6 >= 0 && d5 <= d6) return std::max(0.0, ap2 - d2 - d6);
-    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return std::max(0.0, ap2 - d1 * d1 / ab2_);
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return std::max(0.0, ap2 - d2 * d2 / ac2_);
-    if (va <= 0 && d4 >= d3 && d5 >= d6) {
-      const double along = d4 - d3, length2 = along + d5 - d6;
-      return std::max(0.0, ap2 - d1 - d3 - along * along / length2);
-    }
-    const double h = ap.dot(normal_);
-    return va + vb + vc > 0 ? h * h : ap2;
+    float d = 0;
+    distances2((p - a_).cast<float>(), 0, 1, &d);
+    return d;
   }
 
  private:
-  Vec3 a_, ab_, ac_, normal_;
-  double ab2_, ac2_, abac_;
+  struct Side {
+    Eigen::Vector3f corner, along, out;  ///< out: in the plane, away from the triangle
+    float per_length2 = 0;
+  };
+  Vec3 a_;
+  Eigen::Vector3f normal_, middle_;
+  float radius_ = 0, beyond_ = -1;
+  Side side_[3];
 };
 
 /// The body's mesh and its triangles once more, prepared.
@@ -98,10 +142,13 @@ struct Grid {
   Vec3 at(int x, int y, int z) const { return origin + spacing * Vec3(x, y, z); }
 };
 
-/// Exact distances up to `band` [m] from the surface, and the triangles they lead to.
+/// Exact distances up to `band` [m] from the surface and, where `nearest` is not empty, the triangles they lead to.
 void fill_band(const Surface& surface, const Grid& g, double band, std::vector<float>& distance,
-               std::vector<std::int32_t>& nearest) {
+               std::span<std::int32_t> nearest) {
   const TriMesh& body = surface.mesh;
+  constexpr float far = std::numeric_limits<float>::max();
+  const float band2 = static_cast<float>(band * band), step = static_cast<float>(g.spacing);
+  std::vector<float> row;
   for (std::size_t i = 0; i < body.triangles.size(); ++i) {
     const Vec3 &a = body.vertices[body.triangles[i][0]], &b = body.vertices[body.triangles[i][1]],
                &c = body.vertices[body.triangles[i][2]];
@@ -112,31 +159,30 @@ void fill_band(const Surface& surface, const Grid& g, double band, std::vector<f
       to[k] = std::min(g.n[k] - 1, static_cast<int>(std::floor((high[k] + band - g.origin[k]) / g.spacing)));
     }
     const Facet& facet = surface.facets[i];
-    const Vec3 middle = (a + b + c) / 3;
-    const double radius =
-        std::sqrt(std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
+    const int count = to[0] - from[0] + 1;
+    if (count <= 0) continue;
+    row.resize(static_cast<std::size_t>(count));
     for (int z = from[2]; z <= to[2]; ++z)
-      for (int y = from[1]; y <= to[1]; ++y)
-        for (int x = from[0]; x <= to[0]; ++x) {
-          const Vec3 p = g.at(x, y, z);
-          const std::size_t v = g.index(x, y, z);
-          const double off = facet.height(p);
-          const double limit = std::min(band, static_cast<double>(distance[v]));
-          if (off >= limit || (p - middle).squaredNorm() > (radius + limit) * (radius + limit)) continue;
-          const double d = std::sqrt(facet.distance2(p));
-          if (d >= distance[v]) continue;
-          distance[v] = static_cast<float>(d);
-          nearest[v] = static_cast<std::int32_t>(i);
-        }
+      for (int y = from[1]; y <= to[1]; ++y) {
+        Eigen::Vector3f start = (g.at(from[0], y, z) - facet.origin()).cast<float>();
+        const auto [first, last] = facet.within(start, step, count, static_cast<float>(band));
+        if (first >= last) continue;
+        start.x() += step * static_cast<float>(first);
+        facet.distances2(start, step, last - first, row.data());
+        const std::size_t at = g.index(from[0] + first, y, z);
+        for (int k = 0; k < last - first; ++k) row[k] = row[k] < band2 ? std::sqrt(row[k]) : far;
+        float* known = &distance[at];
+        if (!nearest.empty())
+          for (int k = 0; k < last - first; ++k)
+            if (row[k] < known[k]) nearest[at + static_cast<std::size_t>(k)] = static_cast<std::int32_t>(i);
+        for (int k = 0; k < last - first; ++k) known[k] = row[k] < known[k] ? row[k] : known[k];
+      }
   }
 }
 
 /// Carries the nearest triangle from voxel to voxel (vector distance sweeping): far from the surface the distance is
 /// that to a true triangle, so it is never too small and very nearly exact.
-/// `rows` holds for each y and z where there is anything to do: from which x and before which.
-using Rows = std::vector<std::vector<std::array<int, 2>>>;
-void sweep(const Surface& body, const Grid& g, const Rows& rows, std::vector<float>& distance,
-           std::vector<std::int32_t>& nearest) {
+void sweep(const Surface& body, const Grid& g, std::vector<float>& distance, std::vector<std::int32_t>& nearest) {
   const auto pull = [&](const Vec3& p, std::size_t v, std::size_t from) {
     const std::int32_t t = nearest[from];
     if (t < 0 || t == nearest[v]) return;
@@ -156,21 +202,16 @@ void sweep(const Surface& body, const Grid& g, const Rows& rows, std::vector<flo
       for (int half = 0; half < 2; ++half)
         for (int j = 0; j < g.n[1]; ++j) {
           const int y = half == 0 ? j : g.n[1] - 1 - j;
-          const auto& spans = rows[y + static_cast<std::size_t>(g.n[1]) * z];
-          const std::size_t count = spans.size();
           for (int quarter = 0; quarter < 2; ++quarter)
-            for (std::size_t k = 0; k < count; ++k) {
-              const auto [from, to] = spans[quarter == 0 ? k : count - 1 - k];
-              for (int i = from; i < to; ++i) {
-                const int x = quarter == 0 ? i : from + to - 1 - i;
-                const std::size_t v = g.index(x, y, z);
-                const Vec3 p = g.at(x, y, z);
-                if (quarter == 0) {
-                  if (half == 0 && z != (up ? 0 : g.n[2] - 1)) pull(p, v, up ? v - slab : v + slab);
-                  if (y != (half == 0 ? 0 : g.n[1] - 1)) pull(p, v, half == 0 ? v - row : v + row);
-                }
-                if (x != (quarter == 0 ? 0 : g.n[0] - 1)) pull(p, v, quarter == 0 ? v - 1 : v + 1);
+            for (int i = 0; i < g.n[0]; ++i) {
+              const int x = quarter == 0 ? i : g.n[0] - 1 - i;
+              const std::size_t v = g.index(x, y, z);
+              const Vec3 p = g.at(x, y, z);
+              if (quarter == 0) {
+                if (half == 0 && z != (up ? 0 : g.n[2] - 1)) pull(p, v, up ? v - slab : v + slab);
+                if (y != (half == 0 ? 0 : g.n[1] - 1)) pull(p, v, half == 0 ? v - row : v + row);
               }
+              if (x != (quarter == 0 ? 0 : g.n[0] - 1)) pull(p, v, quarter == 0 ? v - 1 : v + 1);
             }
         }
     }
@@ -229,21 +270,16 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
     }
 }
 
-constexpr double band_voxels = 2;  ///< exact distances at this many voxels from the surface
-constexpr double near_voxels = 7;  ///< and nearest triangles from voxel to voxel up to here, and everywhere inside
+constexpr double band_voxels = 3;  ///< exact distances up to this many voxels from the surface: cloth lies within
 constexpr int coarse_step = 4;     ///< voxels from one coarse sample to the next
 
-/// Every fourth voxel in each direction, with the nearest triangle: tells where the fine work is worth its time.
+/// Every fourth voxel in each direction, with the nearest triangle: beyond the band cloth only asks how far it is.
 struct Coarse {
   Grid grid;
   std::vector<float> distance;  ///< [m] signed
   std::vector<std::int32_t> nearest;
   std::vector<Eigen::Vector3f> foot;  ///< nearest point, relative to the grid's origin so that floats suffice
 };
-
-Rows whole_rows(const Grid& g) {
-  return Rows(static_cast<std::size_t>(g.n[1]) * g.n[2], {{0, g.n[0]}});
-}
 
 /// The triangles around each vertex.
 class Fans {
@@ -295,7 +331,7 @@ Coarse make_coarse(const Surface& surface, const Grid& g) {
   c.distance.assign(total, std::numeric_limits<float>::max());
   c.nearest.assign(total, -1);
   fill_band(surface, c.grid, c.grid.spacing, c.distance, c.nearest);
-  sweep(surface, c.grid, whole_rows(c.grid), c.distance, c.nearest);
+  sweep(surface, c.grid, c.distance, c.nearest);
   // A neighbour's triangle is a fair guess on so coarse a grid, no more.
   const Fans fans(body);
   c.foot.resize(total);
@@ -321,36 +357,30 @@ std::array<std::size_t, 8> corners(const Coarse& c, int x, int y, int z) {
   return corner;
 }
 
-/// Far outside, a voxel's distance is interpolated between the corners of its coarse cell or, where these look at
-/// different parts of the body, taken to the nearest of their nearest points. Gives the rows of what is left: the
-/// body's inside and the surroundings of its surface.
-Rows fill_far(const Coarse& c, const Grid& g, std::vector<float>& distance) {
-  Rows rows(static_cast<std::size_t>(g.n[1]) * g.n[2]);
-  const float h = static_cast<float>(g.spacing), near = static_cast<float>(near_voxels * g.spacing);
+/// Beyond the band a voxel's distance is interpolated between the corners of its coarse cell or, where these look at
+/// different parts of the body, taken to the nearest of their nearest points.
+void fill_far(const Coarse& c, const Grid& g, float band, std::vector<float>& distance) {
+  const float h = static_cast<float>(g.spacing);
   using Row = Eigen::Array<float, coarse_step, 1>;
   const Row steps = Row::LinSpaced(coarse_step, 0, coarse_step - 1);
   for (int cz = 0; cz + 1 < c.grid.n[2]; ++cz)
     for (int cy = 0; cy + 1 < c.grid.n[1]; ++cy)
       for (int cx = 0; cx + 1 < c.grid.n[0]; ++cx) {
         const std::array<std::size_t, 8> corner = corners(c, cx, cy, cz);
-        const bool close =
-            std::any_of(corner.begin(), corner.end(), [&](std::size_t v) { return c.distance[v] < near; });
         // Feet further apart than the corners are lie on different parts of the body: the distance has a ridge here.
         float apart = 0;
         for (const std::size_t v : corner) apart = std::max(apart, (c.foot[v] - c.foot[corner[0]]).squaredNorm());
         const bool smooth = apart <= 3.3F * coarse_step * coarse_step * h * h;
+        // Near the surface the distance bends most, and depths beyond a ridge inside would count as distances outside:
+        // the way to the nearest foot is never too short there.
+        const bool close = std::any_of(corner.begin(), corner.end(),
+                                       [&](std::size_t v) { return c.distance[v] < 1.5F * coarse_step * h; });
         const int x0 = cx * coarse_step, x1 = std::min(x0 + coarse_step, g.n[0]);
         for (int z = cz * coarse_step; z < std::min((cz + 1) * coarse_step, g.n[2]); ++z)
           for (int y = cy * coarse_step; y < std::min((cy + 1) * coarse_step, g.n[1]); ++y) {
-            if (close) {
-              auto& spans = rows[y + static_cast<std::size_t>(g.n[1]) * z];
-              if (!spans.empty() && spans.back()[1] == x0)
-                spans.back()[1] = x1;
-              else
-                spans.push_back({x0, x1});
-              continue;
-            }
-            Row value;
+            float* row = &distance[g.index(x0, y, z)];
+            if (*std::max_element(row, row + (x1 - x0)) <= band) continue;
+            Row value = Row::Constant(std::numeric_limits<float>::max());
             if (smooth) {
               const float v = static_cast<float>(y - cy * coarse_step) / coarse_step;
               const float w = static_cast<float>(z - cz * coarse_step) / coarse_step;
@@ -358,8 +388,9 @@ Rows fill_far(const Coarse& c, const Grid& g, std::vector<float>& distance) {
                 return (1 - w) * ((1 - v) * c.distance[corner[k]] + v * c.distance[corner[k + 2]]) +
                        w * ((1 - v) * c.distance[corner[k + 4]] + v * c.distance[corner[k + 6]]);
               };
-              value = edge(0) + (edge(1) - edge(0)) / coarse_step * steps;
-            } else {
+              value = (edge(0) + (edge(1) - edge(0)) / coarse_step * steps).abs();
+            }
+            if (!smooth || close) {
               const Row px = h * (static_cast<float>(x0) + steps);
               const float py = h * static_cast<float>(y), pz = h * static_cast<float>(z);
               Row least = Row::Constant(std::numeric_limits<float>::max());
@@ -368,13 +399,12 @@ Rows fill_far(const Coarse& c, const Grid& g, std::vector<float>& distance) {
                 const float aside = (py - q.y()) * (py - q.y()) + (pz - q.z()) * (pz - q.z());
                 least = least.min((px - q.x()).square() + aside);
               }
-              value = least.sqrt();
+              value = value.min(least.sqrt());
             }
-            float* row = &distance[g.index(x0, y, z)];
-            for (int x = x0; x < x1; ++x) row[x - x0] = std::min(row[x - x0], value[x - x0]);
+            for (int x = x0; x < x1; ++x)
+              if (row[x - x0] > band) row[x - x0] = std::max(band, value[x - x0]);
           }
       }
-  return rows;
 }
 
 /// No distance may differ from its neighbour's by more than the way to it: takes out most of what was too large.
@@ -447,9 +477,9 @@ Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options)
   const std::size_t total = static_cast<std::size_t>(g.n[0]) * g.n[1] * g.n[2];
   field.values.assign(total, std::numeric_limits<float>::max());
   const Surface surface(body);
-  std::vector<std::int32_t> nearest(total, -1);
-  fill_band(surface, g, band_voxels * g.spacing, field.values, nearest);
-  sweep(surface, g, fill_far(make_coarse(surface, g), g, field.values), field.values, nearest);
+  const double band = band_voxels * g.spacing;
+  fill_band(surface, g, band, field.values, {});
+  fill_far(make_coarse(surface, g), g, static_cast<float>(band), field.values);
   limit_slope(g, field.values);
   sign_by_parity(body, g, field.values);
   return field;

@@ -51,7 +51,7 @@ RenderMesh tube(double radius = 0.2) {
   return m;
 }
 
-constexpr PreviewOptions kSmall{.view_width = 120, .view_height = 180, .samples = 2, .occlusion_rays = 4};
+const PreviewOptions kSmall{.view_width = 120, .view_height = 180, .samples = 2, .occlusion_rays = 4};
 
 Image render(const std::vector<RenderMesh>& meshes, const PreviewOptions& options = kSmall) {
   auto picture = render_preview(meshes, options);

@@ -47,7 +47,8 @@ Result<Mannequin> build_mannequin(const Measurements& measurements, const Manneq
 /// are found on the mesh. Errors: MISSING_FILE (66); NOT_A_MESH, NOT_WATERTIGHT, NOT_A_BODY, TOO_LARGE (65).
 Result<Mannequin> import_mannequin(const std::string& path);
 
-/// Signed distance on voxels around the body (paper III.C). Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
+/// Signed distance on voxels around the body (paper III.C): exact up to three voxels from the surface, beyond that
+/// interpolated between exact distances four voxels apart. Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
 Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options = {});
 
 }  // namespace vitrine
