@@ -106,7 +106,8 @@ int try_people(const std::vector<Measurements>& people, double bar, bool may_ref
 
 int try_fields(const std::string& csv) {
   std::ofstream out(csv);
-  out << "body,build_s,field_s,exact_s,within_half_mm,worst_mm,wrong_signs,deepest_wrong_mm,million_lookups_s,million_"
+  out << "body,build_s,field_s,exact_s,within_half_mm,worst_mm,wrong_signs,wrong_beyond_half_mm,deepest_wrong_mm,wrong_"
+         "voxel_signs,million_lookups_s,million_"
          "random_lookups_s\n";
   int failed = 0;
   for (const char* sex : {"woman", "man"}) {
@@ -128,13 +129,15 @@ int try_fields(const std::string& csv) {
     const FieldProbe p = probe_field(body->mesh, *field, 100000, 0.01, 7, 0.02);
     std::printf(
         "%s at 5 mm: mesh %.3f s + field %.3f s = %.3f s; exact grid %.2f s (x%.1f); %.2f %% within 0.5 mm, worst %.2f "
-        "mm, %zu of %zu signs wrong (deepest %.2f mm); %.1f million lookups/s (%.1f in random order)\n",
+        "mm, %zu of %zu signs wrong (%zu further than 0.5 mm, deepest %.2f mm; %zu of the voxels' own); %.1f million "
+        "lookups/s (%.1f in random order)\n",
         sex, build, voxels, build + voxels, p.exact_seconds, p.exact_seconds / voxels, 100 * p.within_half_mm,
-        1e3 * p.worst, p.wrong_signs, p.points, 1e3 * p.deepest_wrong_sign, 1e-6 * p.lookups_per_second,
-        1e-6 * p.random_lookups_per_second);
+        1e3 * p.worst, p.wrong_signs, p.points, p.wrong_beyond_half_mm, 1e3 * p.deepest_wrong_sign, p.wrong_voxel_signs,
+        1e-6 * p.lookups_per_second, 1e-6 * p.random_lookups_per_second);
     out << sex << ',' << build << ',' << voxels << ',' << p.exact_seconds << ',' << p.within_half_mm << ','
-        << 1e3 * p.worst << ',' << p.wrong_signs << ',' << 1e3 * p.deepest_wrong_sign << ','
-        << 1e-6 * p.lookups_per_second << ',' << 1e-6 * p.random_lookups_per_second << '\n';
+        << 1e3 * p.worst << ',' << p.wrong_signs << ',' << p.wrong_beyond_half_mm << ',' << 1e3 * p.deepest_wrong_sign
+        << ',' << p.wrong_voxel_signs << ',' << 1e-6 * p.lookups_per_second << ',' << 1e-6 * p.random_lookups_per_second
+        << '\n';
     failed += p.within_half_mm >= 0.99 && p.deepest_wrong_sign < 5e-4 ? 0 : 1;
   }
   return failed;

@@ -182,6 +182,7 @@ FieldProbe probe_field(const TriMesh& body, const DistanceField& field, std::siz
     // tells whether that is all.
     if ((got < 0) == inside || std::abs(exact) < 1e-9) continue;
     ++r.wrong_signs;
+    if (std::abs(exact) > 5e-4) ++r.wrong_beyond_half_mm;
     r.deepest_wrong_sign = std::max(r.deepest_wrong_sign, std::abs(exact));
   }
   r.points = places.size();
@@ -214,7 +215,13 @@ FieldProbe probe_field(const TriMesh& body, const DistanceField& field, std::siz
     for (int y = 0; y < field.size[1]; ++y)
       for (int x = 0; x < field.size[0]; ++x) {
         const Point p = point(field.origin + field.spacing * Vec3(x, y, z));
-        sum += std::sqrt(tree.squared_distance(p)) * (side(p) == CGAL::ON_BOUNDED_SIDE ? -1 : 1);
+        const bool inside = side(p) == CGAL::ON_BOUNDED_SIDE;
+        sum += std::sqrt(tree.squared_distance(p)) * (inside ? -1 : 1);
+        const float kept =
+            field.values[static_cast<std::size_t>(x) +
+                         static_cast<std::size_t>(field.size[0]) *
+                             (static_cast<std::size_t>(y) + static_cast<std::size_t>(field.size[1]) * z)];
+        if ((kept < 0) != inside) ++r.wrong_voxel_signs;
       }
   r.exact_seconds = seconds_since(start) * field.size[2] / std::max(1, slabs) + (std::isfinite(sum) ? 0 : 1);
   return r;

@@ -27,6 +27,8 @@ struct FieldProbe {
   double within_half_mm = 0;             ///< [-] share
   double worst = 0;                      ///< [m]
   double exact_seconds = 0;              ///< computing every voxel of the field's grid by AABB queries
+  std::size_t wrong_beyond_half_mm = 0;  ///< wrong signs further than 0.5 mm from the surface
+  std::size_t wrong_voxel_signs = 0;     ///< among the voxels that were computed exactly
   double deepest_wrong_sign = 0;         ///< [m] from the surface
   double lookups_per_second = 0;         ///< with gradient; places along the surface, as a cloth's nodes lie
   double random_lookups_per_second = 0;  ///< places all over the body

@@ -244,6 +244,9 @@ void measure(const Figure& f, Mannequin& body) {
 
 constexpr double solver_bar = 3e-3;  ///< [m] what the solid may miss
 constexpr double mesh_bar = 5e-3;    ///< [m] what the mesh may miss before the body is refused
+constexpr std::size_t fewest_triangles = 10'500, most_triangles = 19'500;
+constexpr double usual_triangles = 16'000;
+constexpr double least_angle = 0.21;  ///< [rad] 12 degrees: thinner triangles are meshed again
 
 /// A body, or how far the solver came.
 struct Attempt {
@@ -259,8 +262,9 @@ Attempt attempt(const Measurements& m, const MannequinOptions& options) {
   Unknowns unknowns = first_guess(m);
   // Large bodies take larger triangles, so that their number stays.
   const double skin = m.height * (m.bust + m.waist + m.hip);
-  const double spacing = options.surface_spacing * std::clamp(std::sqrt(skin / 4.4), 0.75, 1.5);
+  double spacing = options.surface_spacing * std::clamp(std::sqrt(skin / 4.4), 0.9, 1.5);
   Measurements aim = m;
+  Vec8 step = Vec8::Zero();  ///< [m] by which the last round moved the aim
   Attempt result;
   TriMesh& mesh = result.body.mesh;
   // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
@@ -274,15 +278,25 @@ Attempt attempt(const Measurements& m, const MannequinOptions& options) {
     if (round == 0) {
       mesh = march(surface.distance, figure.low, figure.high, 0.5 * options.surface_spacing, -0.010);
       remesh(mesh, surface, 4);
+      for (int i = 0; i < 3 && (mesh.triangles.size() < fewest_triangles || mesh.triangles.size() > most_triangles);
+           ++i) {
+        spacing *= std::sqrt(static_cast<double>(mesh.triangles.size()) / usual_triangles);
+        remesh(mesh, surface, 2);
+      }
     } else {
       settle(mesh, surface);
+      if (smallest_angle(mesh) < least_angle) remesh(mesh, surface, 2);
     }
     stand(mesh, m.height);
     describe(figure, plan, result.body);
     measure(figure, result.body);
+    const Vec8 before = result.missed;
     for (int i = 0; i < girths_and_leg; ++i) {
       result.missed[i] = m.*sizes[i].value - result.body.girths.at(sizes[i].name);
-      aim.*sizes[i].value += std::clamp(result.missed[i], -0.01, 0.01);
+      // Secant steps: where hips are fullest may move, and then the mesh answers twice what the solid was asked.
+      const double answer = std::abs(step[i]) > 2e-4 ? (before[i] - result.missed[i]) / step[i] : 1.0;
+      step[i] = std::clamp(result.missed[i] / std::clamp(answer, 0.5, 3.0), -0.01, 0.01);
+      aim.*sizes[i].value += step[i];
     }
     if (result.missed.cwiseAbs().maxCoeff() < 4e-4) break;
   }

@@ -147,7 +147,7 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   breast_.centre = Vec3(bust_apart, y4 - 0.002 * h, wall - 0.016 * h);
   breast_.x = round * (woman_ ? 1.0 : 1.05);
   breast_.up = std::min(round * (woman_ ? 1.7 : 1.2), 0.058 * h);
-  breast_.down = woman_ ? std::min(0.90 * round, 0.036 * h) : 0.055 * h;
+  breast_.down = woman_ ? std::min(0.90 * round, 0.033 * h) : 0.055 * h;
   breast_.z = 0.016 * h + breast;
 
   const double behind = hip.z - hip.back;

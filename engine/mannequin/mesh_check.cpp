@@ -48,6 +48,17 @@ double signed_volume(const TriMesh& mesh) {
   return six / 6;
 }
 
+double smallest_angle(const TriMesh& mesh) {
+  double sharpest = -1;  // the largest cosine
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3& at = mesh.vertices[t[k]];
+      const Vec3 a = mesh.vertices[t[(k + 1) % 3]] - at, b = mesh.vertices[t[(k + 2) % 3]] - at;
+      sharpest = std::max(sharpest, a.dot(b) / std::max(a.norm() * b.norm(), 1e-300));
+    }
+  return std::acos(std::clamp(sharpest, -1.0, 1.0));
+}
+
 std::vector<int> pieces(const TriMesh& mesh) {
   const std::size_t n = mesh.vertices.size();
   std::vector<std::size_t> parent(n);

@@ -18,6 +18,7 @@ struct MeshState {
 
 MeshState inspect(const TriMesh& mesh);
 double signed_volume(const TriMesh& mesh);
+double smallest_angle(const TriMesh& mesh);  ///< [rad] of all corners
 /// Piece of each vertex, numbered in the order in which vertices first meet it; vertices without a triangle are -1.
 std::vector<int> pieces(const TriMesh& mesh);
 

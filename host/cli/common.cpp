@@ -9,6 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "field_cache.hpp"
+
 namespace vitrine::cli {
 namespace {
 
@@ -86,8 +88,10 @@ Result<PluginRegistry> PluginOptions::load() const {
 }
 
 void MannequinOptions::add_to(CLI::App& app) {
-  app.add_option("--mannequin", file, "Watertight OBJ, GLB or PLY body, or a JSON file of measurements [mm]")
+  app.add_option("--mannequin", file,
+                 "Preset such as woman-m, watertight OBJ, GLB, PLY or DAE body, or a JSON file of measurements [mm]")
       ->group("Mannequin");
+  app.add_option("--cache", cache, "Folder that keeps the mannequin's voxels for the next run")->group("Mannequin");
   app.add_option("--sex", sex, "Built-in body: woman or man")
       ->check(CLI::IsMember({"woman", "man"}))
       ->group("Mannequin");
@@ -103,14 +107,18 @@ void MannequinOptions::add_to(CLI::App& app) {
 Result<std::shared_ptr<const Body>> MannequinOptions::make_body() const {
   auto body = std::make_shared<Body>();
   Measurements m;
-  const bool measured = file.empty() || lower_extension(file) == ".json";
+  const auto preset = preset_measurements(file);
+  const bool measured = file.empty() || preset || lower_extension(file) == ".json";
   const bool flags = !sex.empty() || std::any_of(millimetres.begin(), millimetres.end(),
                                                  [](const auto& v) { return v.second.has_value(); });
+  if (!measured && lower_extension(file).empty() && !std::filesystem::exists(file)) return preset.error();
   if (!measured && flags)
     return Error{Cause::usage, "USAGE", file + ": a mesh has its own measurements",
                  "leave out --sex and the --...-mm flags, or --mannequin", "mannequin"};
   if (measured) {
-    if (!file.empty())
+    if (preset)
+      m = *preset;
+    else if (!file.empty())
       if (auto e = read_measurements(file, m)) return *e;
     if (!sex.empty()) m.sex = sex;
     for (std::size_t i = 0; i < millimetres.size(); ++i)
@@ -120,7 +128,7 @@ Result<std::shared_ptr<const Body>> MannequinOptions::make_body() const {
   if (!mannequin) return mannequin.error();
   body->mannequin = *std::move(mannequin);
   for (const std::string& warning : body->mannequin.warnings) spdlog::warn("warning: {}", warning);
-  auto field = voxelise(body->mannequin.mesh);
+  auto field = cached_field(body->mannequin.mesh, {}, cache);
   if (!field) return field.error();
   body->field = *std::move(field);
   return std::shared_ptr<const Body>(std::move(body));

@@ -21,9 +21,10 @@ struct PluginOptions {
   PluginSearch search() const;
 };
 
-/// The mannequin as asked for: a mesh or measurements file, or single measurements.
+/// The mannequin as asked for: a preset, a mesh or measurements file, or single measurements.
 struct MannequinOptions {
-  std::string file;
+  std::string file;   ///< or the name of a preset
+  std::string cache;  ///< folder that keeps voxels from run to run; empty = none
   std::string sex;
   /// One entry per measurement flag [mm]; unset ones keep the default.
   std::vector<std::pair<std::string, std::optional<double>>> millimetres;

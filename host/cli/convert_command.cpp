@@ -34,7 +34,10 @@ int run_convert(const ConvertArguments& arguments) {
   auto body = arguments.mannequin.make_body();
   if (!body) return fail(body.error());
   request.body = *body;
-  request.progress = [](const std::string& stage, double) { spdlog::info("{} ...", stage); };
+  request.progress = [last = std::string()](const std::string& stage, double) mutable {
+    if (stage != last) spdlog::info("{} ...", stage);
+    last = stage;
+  };
 
   const Conversion item = convert(request);
   if (auto e = write_conversion(request, item, arguments.out)) return fail(*e);

@@ -42,7 +42,7 @@ TEST(MannequinCommand, writes_mesh_picture_and_measurements_of_a_preset) {
     EXPECT_NEAR(row.at("measured").get<double>(), value.get<double>(), 2) << name;
     EXPECT_EQ(row.at("level"), row.at("point").at(1)) << name;
   }
-  for (const auto& entry : fs::directory_iterator(out)) EXPECT_EQ(entry.path().string().find("tmp"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(out)) EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos);
 }
 
 TEST(MannequinCommand, gives_the_same_bytes_twice_and_from_a_file) {
@@ -100,4 +100,46 @@ TEST(MannequinCommand, tells_usage_missing_and_unwritable_apart) {
   EXPECT_EQ(run_vitrine("mannequin --measurements /no/such/m.json" + out).exit_code, 66);
   std::ofstream(folder / "file") << "x";
   EXPECT_EQ(run_vitrine("mannequin --preset woman-m --out " + in_quotes(folder / "file" / "out")).exit_code, 73);
+}
+
+TEST(MannequinCache, gives_the_same_garment_from_a_fresh_a_filled_and_a_damaged_cache) {
+  const fs::path folder = scratch(), sample = fs::path(VITRINE_SOURCE_DIR) / "catalog" / "sample";
+  const auto convert = [&](const std::string& out, const std::string& options) {
+    const Outcome run =
+        run_vitrine("convert --garment vest --quality draft --mannequin woman-l --front " +
+                    in_quotes(sample / "vest-sailor-front.jpg") + " --back " +
+                    in_quotes(sample / "vest-sailor-back.jpg") + " --out " + in_quotes(folder / out) + " " + options);
+    EXPECT_EQ(run.exit_code, 0) << run.text;
+    return slurp(folder / out / "garment.glb");
+  };
+  const std::string plain = convert("plain", "");
+  const fs::path cache = folder / "cache";
+  const std::string with_cache = "--cache " + in_quotes(cache);
+  EXPECT_EQ(convert("fresh", with_cache), plain);
+  ASSERT_EQ(std::distance(fs::directory_iterator(cache), fs::directory_iterator()), 1);
+  const fs::path file = fs::directory_iterator(cache)->path();
+  const std::string kept = slurp(file);
+  EXPECT_EQ(convert("filled", with_cache), plain);
+  // One flipped bit in the values, a cut file, and a header that claims more than there is.
+  for (int damage = 0; damage < 3; ++damage) {
+    std::string bytes = kept;
+    if (damage == 0) bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+    if (damage == 1) bytes.resize(bytes.size() / 3);
+    if (damage == 2) bytes[59] = 0x7f;
+    std::ofstream(file, std::ios::binary) << bytes;
+    EXPECT_EQ(convert("damaged", with_cache), plain) << damage;
+    EXPECT_EQ(slurp(file), kept) << damage;
+  }
+}
+
+TEST(MannequinCache, names_an_unknown_preset_and_a_folder_that_cannot_be_written) {
+  const fs::path folder = scratch(), sample = fs::path(VITRINE_SOURCE_DIR) / "catalog" / "sample";
+  const std::string vest = "convert --garment vest --quality draft --mirror-back --front " +
+                           in_quotes(sample / "vest-sailor-front.jpg") + " --out " + in_quotes(folder / "out");
+  Outcome run = run_vitrine(vest + " --mannequin woman-xxxl");
+  EXPECT_EQ(run.exit_code, 64);
+  EXPECT_NE(run.text.find("woman-xxxl"), std::string::npos) << run.text;
+  std::ofstream(folder / "file") << "not a folder";
+  run = run_vitrine(vest + " --cache " + in_quotes(folder / "file"));
+  EXPECT_EQ(run.exit_code, 73) << run.text;
 }

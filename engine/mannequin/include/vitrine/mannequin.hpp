@@ -29,7 +29,7 @@ Result<Measurements> preset_measurements(const std::string& name);
 std::vector<std::string> unusual_measurements(const Measurements& measurements);
 
 struct MannequinOptions {
-  double surface_spacing = 0.019;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
+  double surface_spacing = 0.0205;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
   double arm_angle_deg = 42;  ///< [degree] of the arms from the vertical (A-pose); more where a wide chest needs it
 };
 
