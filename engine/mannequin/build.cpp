@@ -265,13 +265,16 @@ Attempt attempt(const Measurements& m, const MannequinOptions& options) {
   double spacing = options.surface_spacing * std::clamp(std::sqrt(skin / 4.4), 0.9, 1.5);
   Measurements aim = m;
   Vec8 step = Vec8::Zero();  ///< [m] by which the last round moved the aim
-  Attempt result;
+  Attempt result, best;
   TriMesh& mesh = result.body.mesh;
   // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
   // mesh of the first follows the solid.
-  for (int round = 0; round < 5; ++round) {
+  for (int round = 0; round < 10; ++round) {
     const Vec8 miss = solve(m, aim, plan, angle, unknowns);
-    if (!(miss.cwiseAbs().maxCoeff() < solver_bar)) return {{}, miss, false};
+    if (!(miss.cwiseAbs().maxCoeff() < solver_bar)) {
+      if (best.solved) break;
+      return {{}, miss, false};
+    }
     const Figure figure(m, plan, angle, unknowns);
     const Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
                           [&](const Vec3& p) { return spacing * figure.detail(p); }};
@@ -295,13 +298,18 @@ Attempt attempt(const Measurements& m, const MannequinOptions& options) {
       result.missed[i] = m.*sizes[i].value - result.body.girths.at(sizes[i].name);
       // Secant steps: where hips are fullest may move, and then the mesh answers twice what the solid was asked.
       const double answer = std::abs(step[i]) > 2e-4 ? (before[i] - result.missed[i]) / step[i] : 1.0;
-      step[i] = std::clamp(result.missed[i] / std::clamp(answer, 0.5, 3.0), -0.01, 0.01);
+      step[i] = std::clamp(result.missed[i] / std::clamp(answer, 0.5, 3.0), -0.01, 0.01) * (round < 3 ? 1.0 : 0.6);
       aim.*sizes[i].value += step[i];
     }
-    if (result.missed.cwiseAbs().maxCoeff() < 4e-4) break;
+    const double worst = result.missed.cwiseAbs().maxCoeff();
+    if (!best.solved || worst < best.missed.cwiseAbs().maxCoeff()) {
+      best = result;
+      best.solved = true;
+    }
+    // Most bodies are there in two or three rounds; the rest may do with a little less.
+    if (worst < (round < 4 ? 4e-4 : 1e-3)) break;
   }
-  result.solved = true;
-  return result;
+  return best;
 }
 
 /// Values of one measurement with which the others make a body [m].
@@ -359,11 +367,10 @@ Error impossible(const Measurements& m, const Vec8& miss, const MannequinOptions
     const std::optional<Range> range = range_that_works(m, sizes[i].value, options);
     if (!range) continue;
     char text[240];
-    std::snprintf(text, sizeof text,
-                  "No body with these other measurements has a %s of %.0f mm: %.0f to %.0f mm works.", sizes[i].name,
-                  m.*sizes[i].value * 1e3, std::ceil(range->low * 1e3), std::floor(range->high * 1e3));
+    std::snprintf(text, sizeof text, "%s of %.0f mm fits no body with these other measurements: %.0f to %.0f mm works.",
+                  sizes[i].name, m.*sizes[i].value * 1e3, std::ceil(range->low * 1e3), std::floor(range->high * 1e3));
     return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", text,
-                 std::string("Give a ") + sizes[i].name + " within that range, or check the other measurements.", ""};
+                 std::string("Give ") + sizes[i].name + " within that range, or check the other measurements.", ""};
   }
   return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS",
                "No body has these measurements, and changing a single one does not help.",

@@ -247,7 +247,7 @@ TEST(BuildMannequin, names_unusual_measurements_and_leaves_usual_ones_alone) {
 /// Takes the advice of a refusal: the named measurement goes to the nearer end of the named range.
 bool follow(const std::string& advice, Measurements& m) {
   static const std::regex outside("(\\w+) of \\d+ mm is outside (\\d+) to (\\d+) mm.*"),
-      works(".* has a (\\w+) of \\d+ mm: (\\d+) to (\\d+) mm works.*");
+      works("(\\w+) of \\d+ mm fits no body with these other measurements: (\\d+) to (\\d+) mm works.*");
   static const std::map<std::string, double Measurements::*> sizes{{"height", &Measurements::height},
                                                                    {"bust", &Measurements::bust},
                                                                    {"under_bust", &Measurements::under_bust},
