@@ -290,6 +290,8 @@ Attempt attempt(const Measurements& m, const MannequinOptions& options) {
       settle(mesh, surface);
       if (smallest_angle(mesh) < least_angle) remesh(mesh, surface, 2);
     }
+    // The aim may drift to a solid that falls apart; the rounds before it stand.
+    if (mesh.triangles.empty() || mesh.triangles.size() > 2 * most_triangles) break;
     stand(mesh, m.height);
     describe(figure, plan, result.body);
     measure(figure, result.body);
