@@ -60,6 +60,9 @@ Unknowns first_guess(const Measurements& m) {
   return u;
 }
 
+constexpr double surface_spacing = 0.0205;               ///< [m] triangle edge on the trunk; hands, feet, head: finer
+constexpr double arm_angle = 42 * 0.017453292519943295;  ///< [rad] from the vertical; more where a wide chest needs it
+
 using Vec8 = Eigen::Matrix<double, 8, 1>;  ///< in the order of `sizes`
 
 /// What the solver reaches for, in its order.
@@ -96,7 +99,7 @@ Unknowns unpack(const Vec8& x) {
 
 /// Turns the unknowns until the solid built from `m` has the girths in `aim`: Broyden's method, starting from what the
 /// tapes would answer on a bare loft. Gives what is left to miss [m], in the order of `pack`.
-Vec8 solve(const Measurements& m, const Measurements& aim, const BodyPlan& plan, double arm_angle, Unknowns& u) {
+Vec8 solve(const Measurements& m, const Measurements& aim, const BodyPlan& plan, Unknowns& u) {
   const auto missed = [&](const Vec8& x) {
     const Figure f(m, plan, arm_angle, unpack(x));
     const Tapes t = read_tapes(f);
@@ -256,13 +259,12 @@ struct Attempt {
   bool good() const { return solved && missed.cwiseAbs().maxCoeff() <= mesh_bar; }
 };
 
-Attempt attempt(const Measurements& m, const MannequinOptions& options) {
+Attempt attempt(const Measurements& m) {
   const BodyPlan plan = plan_body(m);
-  const double angle = options.arm_angle_deg * 0.017453292519943295;
   Unknowns unknowns = first_guess(m);
   // Large bodies take larger triangles, so that their number stays.
   const double skin = m.height * (m.bust + m.waist + m.hip);
-  double spacing = options.surface_spacing * std::clamp(std::sqrt(skin / 4.4), 0.9, 1.5);
+  double spacing = surface_spacing * std::clamp(std::sqrt(skin / 4.4), 0.9, 1.5);
   Measurements aim = m;
   Vec8 step = Vec8::Zero();  ///< [m] by which the last round moved the aim
   Attempt result, best;
@@ -270,16 +272,16 @@ Attempt attempt(const Measurements& m, const MannequinOptions& options) {
   // Triangles cut corners, so the mesh reads a few millimetres off the solid: each round aims that much aside, and the
   // mesh of the first follows the solid.
   for (int round = 0; round < 10; ++round) {
-    const Vec8 miss = solve(m, aim, plan, angle, unknowns);
+    const Vec8 miss = solve(m, aim, plan, unknowns);
     if (!(miss.cwiseAbs().maxCoeff() < solver_bar)) {
       if (best.solved) break;
       return {{}, miss, false};
     }
-    const Figure figure(m, plan, angle, unknowns);
+    const Figure figure(m, plan, arm_angle, unknowns);
     const Surface surface{[&figure](const Vec3& p) { return figure.distance(p); },
                           [&](const Vec3& p) { return spacing * figure.detail(p); }};
     if (round == 0) {
-      mesh = march(surface.distance, figure.low, figure.high, 0.5 * options.surface_spacing, -0.010);
+      mesh = march(surface.distance, figure.low, figure.high, 0.5 * surface_spacing, -0.010);
       remesh(mesh, surface, 4);
       for (int i = 0; i < 3 && (mesh.triangles.size() < fewest_triangles || mesh.triangles.size() > most_triangles);
            ++i) {
@@ -321,13 +323,13 @@ struct Range {
 
 /// The values of `size` nearest to the one in `m` that make a body: looked for on the solid, both ends tried on the
 /// mesh.
-std::optional<Range> range_that_works(Measurements m, double Measurements::*size, const MannequinOptions& options) {
+std::optional<Range> range_that_works(Measurements m, double Measurements::*size) {
   const double asked = m.*size;
   const auto works = [&](double value) {
     m.*size = value;
     if (!check_measurements(m)) return false;
     Unknowns unknowns = first_guess(m);
-    const Vec8 miss = solve(m, m, plan_body(m), options.arm_angle_deg * 0.017453292519943295, unknowns);
+    const Vec8 miss = solve(m, m, plan_body(m), unknowns);
     return miss.cwiseAbs().maxCoeff() < solver_bar;
   };
   constexpr double step = 0.02;
@@ -349,7 +351,7 @@ std::optional<Range> range_that_works(Measurements m, double Measurements::*size
   const double inner = refine(near, near - way * step) + way * 1e-3, outer = refine(far, far + way * step) - way * 1e-3;
   const auto whole = [&](double value) {
     m.*size = value;
-    return attempt(m, options).good();
+    return attempt(m).good();
   };
   // What the mesh makes of an end may differ: then the range shrinks towards what is known to work.
   double ends[2] = {inner, outer};
@@ -361,12 +363,12 @@ std::optional<Range> range_that_works(Measurements m, double Measurements::*size
 }
 
 /// Names the measurement to change, the one that is missed most first, and the range that works.
-Error impossible(const Measurements& m, const Vec8& miss, const MannequinOptions& options) {
+Error impossible(const Measurements& m, const Vec8& miss) {
   std::array<int, 7> order{0, 1, 2, 3, 4, 5, 6};
   const auto badly = [&miss](int i) { return std::isfinite(miss[i]) ? std::abs(miss[i]) : 1e9; };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return badly(a) > badly(b); });
   for (const int i : order) {
-    const std::optional<Range> range = range_that_works(m, sizes[i].value, options);
+    const std::optional<Range> range = range_that_works(m, sizes[i].value);
     if (!range) continue;
     char text[240];
     std::snprintf(text, sizeof text, "%s of %.0f mm fits no body with these other measurements: %.0f to %.0f mm works.",
@@ -382,14 +384,10 @@ Error impossible(const Measurements& m, const Vec8& miss, const MannequinOptions
 }  // namespace
 }  // namespace body
 
-Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options) {
+Result<Mannequin> build_mannequin(const Measurements& measurements) {
   if (Result<bool> checked = body::check_measurements(measurements); !checked) return checked.error();
-  if (!(options.surface_spacing >= 0.008 && options.surface_spacing <= 0.03) ||
-      !(options.arm_angle_deg >= 35 && options.arm_angle_deg <= 60))
-    return Error{Cause::usage, "BAD_OPTION", "The mannequin's surface spacing or arm angle is out of range.",
-                 "Give a spacing of 0.008 to 0.03 m and an arm angle of 35 to 60 degrees.", ""};
-  body::Attempt made = body::attempt(measurements, options);
-  if (!made.good()) return body::impossible(measurements, made.missed, options);
+  body::Attempt made = body::attempt(measurements);
+  if (!made.good()) return body::impossible(measurements, made.missed);
   Mannequin& result = made.body;
   result.source = "built-in " + measurements.sex;
   result.warnings = unusual_measurements(measurements);

@@ -28,19 +28,14 @@ Result<Measurements> preset_measurements(const std::string& name);
 /// survey: such a body can be built, but it may be a slip of the pen.
 std::vector<std::string> unusual_measurements(const Measurements& measurements);
 
-struct MannequinOptions {
-  double surface_spacing = 0.0205;  ///< [m] triangle edge on the built-in body's trunk; hands, feet and head are finer
-  double arm_angle_deg = 42;  ///< [degree] of the arms from the vertical (A-pose); more where a wide chest needs it
-};
-
 struct VoxelOptions {
   double spacing = 0.006;  ///< [m] voxel edge
   double margin = 0.08;    ///< [m] kept free around the body
 };
 
 /// Built-in parametric body. Errors: IMPLAUSIBLE_MEASUREMENTS (65) naming the measurement and the range that would
-/// work, BAD_OPTION (64).
-Result<Mannequin> build_mannequin(const Measurements& measurements, const MannequinOptions& options = {});
+/// work.
+Result<Mannequin> build_mannequin(const Measurements& measurements);
 
 /// Any watertight OBJ, GLB, PLY or DAE, front towards +Z (or standing along +Z, front towards -Y). Metres; a height of
 /// 140-220 is taken for centimetres, 1400-2200 for millimetres. What was guessed is in `warnings`. Landmarks and girths
