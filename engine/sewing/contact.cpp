@@ -41,6 +41,14 @@ void look(const DistanceField& field, ContactSample& s, const Vec3& p) {
   if (s.seen_gap < 0 && steep < 0.3) s.slope *= 0.3 / steep;
 }
 
+/// Whether a sample is too far from the body to feel it soon.
+bool far_away(const Contact& c, std::size_t i, const Packed& x) {
+  const ContactSample& s = c.samples[i];
+  const double far = 0.2 * c.offset, sleeps = lipschitz * (c.asleep_until[i] - c.travelled);
+  if (sleeps > far) return true;
+  return (s.known && sleeps <= 0 ? s.gap : c.field->distance(where(s, x)) - s.limit) > far;
+}
+
 }  // namespace
 
 Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double edge_length, double load,
@@ -149,9 +157,7 @@ void add_contact_stiffness(const Contact& c, const Packed& x, std::vector<double
   for (std::size_t i = 0; i < c.samples.size(); ++i) {
     const ContactSample& s = c.samples[i];
     // Nodes always carry their penalty, so that touching down changes no mass; middles rarely touch.
-    if (s.count > 1 && (lipschitz * (c.asleep_until[i] - c.travelled) > 0.2 * c.offset ||
-                        c.field->distance(where(s, x)) > s.limit + 0.2 * c.offset))
-      continue;
+    if (s.count > 1 && far_away(c, i, x)) continue;
     for (int j = 0; j < s.count; ++j) mass[s.node[j]] += s.k * s.share[j];
   }
 }

@@ -11,10 +11,19 @@
 namespace vitrine::sewing {
 namespace {
 
-// FIRE's own constants, Bitzek et al. 2006; a unit time step is stable because the fictitious mass is the stiffness.
-constexpr double dt_most = 1.0, dt_least = 0.02, dt_start = 0.3;
+// FIRE's own constants, Bitzek et al. 2006, save for the longest step: a unit step is stable because the fictitious
+// mass is the stiffness, and what is measured of the stiffest motion may allow a little more.
+constexpr double dt_most = 1.3, dt_least = 0.02, dt_start = 0.3;
 constexpr double alpha_start = 0.1, alpha_fade = 0.99, faster = 1.1, slower = 0.5;
 constexpr int patience = 5;
+// FIRE turns the velocity towards the force. Where a slow slide goes on under small forces, that turn would amount to
+// many steps at once, too long for the stiffest motions: one node at an armhole then shakes and halts the whole cloth.
+constexpr double turn_most = 0.2;  // [dt]
+
+constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
+constexpr int measure_every = 100, first_rounds = 12, later_rounds = 3;  // of power iteration
+constexpr double probe = 1e-7;                                           // [m]
+constexpr int lattice_every = 25, hold_for = 50;                         // steps
 
 /// The part of a node's force that friction cannot hold. `push` is the body's push on the node.
 Vec3 outside_cone(const Vec3& force, const Vec3& push, double mu) {
@@ -90,7 +99,9 @@ class Fire {
     pack(cloth.x, x_);
     v_.assign(x_.size(), 0.0);
     f_ = a_ = v_;
-    held_.assign(nodes_, 1);
+    held_.assign(nodes_, 0);
+    for (int n = 0; n < c_.size; ++n) held_[n] = c_.pinned[n];
+    touched_at_.assign(nodes_, -hold_for);
     if (contact_) wake(*contact_);
     update_masses();
     // An energy rise smaller than the weight lifted by a tenth of a millimetre is rounding, not an explosion.
@@ -110,6 +121,8 @@ class Fire {
     for (int it = 0;; ++it) {
       const bool look = it % o_.check_every == 0;
       exact = exact || look;
+      // From the second step on, when the nodes at the body are known.
+      if (it % measure_every == 1) limit_step(it == 1 ? first_rounds : later_rounds);
       const double energy = forces(exact);
       const double residual = net_forces() / c_.scale;
       out.iterations = it;
@@ -140,10 +153,68 @@ class Fire {
       }
       if (it >= o_.max_iterations) return out;
       watch(energy);
-      if (it % lattice_every == 0) coarse_.update(held_, mass_);
+      release(it);
       advance();
       exact = residual <= 1.2 * o_.residual;
     }
+  }
+
+  /// Nodes at the body leave the lattices at once, and come back some time after they left it: those that touch now and
+  /// then would change the lattices' masses at every step.
+  void release(int it) {
+    if (contact_)
+      for (const int n : contact_->touched) {
+        touched_at_[n] = it;
+        if (!held_[n]) held_[n] = 1, lattice_old_ = true;
+      }
+    if (it % lattice_every == 0) {
+      for (int n = 0; n < c_.size; ++n) held_[n] = c_.pinned[n] || it - touched_at_[n] < hold_for;
+      lattice_old_ = true;
+    }
+    if (lattice_old_) coarse_.update(held_, mass_);
+    lattice_old_ = false;
+  }
+
+  /// Acceleration by nodes and lattices.
+  void accelerate(const Packed& force, Packed& out) {
+    scale_by_node(force.data(), per_mass_.data(), nodes_, out.data());
+    coarse_.apply(force, held_, out);
+  }
+
+  /// Power iteration on the stiffest motion, with the forces' own differences; goes on from where the last one ended.
+  void limit_step(int rounds) {
+    if (stiffest_.empty()) {
+      stiffest_.assign(x_.size(), 0.0);
+      std::uint32_t seed = 1;
+      for (int n = 0; n < c_.size; ++n)
+        for (int a = 0; a < 3; ++a) {
+          seed = seed * 1664525u + 1013904223u;
+          if (!c_.pinned[n]) stiffest_[4 * n + a] = static_cast<double>(seed >> 8) / (1 << 24) - 0.5;
+        }
+    }
+    Packed there(x_.size()), here(x_.size()), change(x_.size());
+    forces_at(x_, here);
+    for (int round = 0; round < rounds; ++round) {
+      double most = 0;
+      for (const double m : stiffest_) most = std::max(most, std::abs(m));
+      if (!(most > 0)) return;
+      for (std::size_t i = 0; i < x_.size(); ++i) {
+        stiffest_[i] *= probe / most;
+        there[i] = x_[i] + stiffest_[i];
+      }
+      forces_at(there, change);
+      for (std::size_t i = 0; i < x_.size(); ++i) change[i] = here[i] - change[i];
+      const double before = squares_by_mass(stiffest_.data(), mass_.data(), nodes_);
+      accelerate(change, stiffest_);
+      const double after = squares_by_mass(stiffest_.data(), mass_.data(), nodes_);
+      dt_long_ = std::min(dt_most, std::sqrt(stiffest_margin / std::sqrt(after / before)));
+    }
+    dt_cap_ = std::min(dt_cap_, dt_long_);
+  }
+
+  void forces_at(const Packed& x, Packed& out) {
+    springs_.forces(x, out);
+    if (contact_) contact_forces(*contact_, x, out, false);
   }
 
   void update_masses() {
@@ -163,16 +234,13 @@ class Fire {
   /// Sums the stop test and the products FIRE steers by, both with the force that friction leaves over. Leaves that
   /// force in f_, and the whole one of the nodes at the body in `whole_`.
   double net_forces() {
-    for (int n = 0; n < c_.size; ++n) held_[n] = c_.pinned[n];
     for (int n = 0; n < c_.size; ++n)
       if (c_.pinned[n]) put(f_, n, Vec3::Zero());
     if (contact_) {
       whole_.clear();
       for (const int n : contact_->touched) {
         whole_.push_back(at(f_, n));
-        if (c_.pinned[n]) continue;
-        held_[n] = 1;
-        if (o_.friction > 0) put(f_, n, outside_cone(at(f_, n), at(contact_->normal, n), o_.friction));
+        if (o_.friction > 0 && !c_.pinned[n]) put(f_, n, outside_cone(at(f_, n), at(contact_->normal, n), o_.friction));
       }
     }
     const Sums s = sums_of(f_.data(), v_.data(), mass_.data(), nodes_);
@@ -198,7 +266,7 @@ class Fire {
       ceiling_known_ = false;
       calm_ = 0;
     } else if (++calm_ % 20 == 0) {
-      dt_cap_ = std::min(dt_most, 1.2 * dt_cap_);
+      dt_cap_ = std::min(dt_long_, 1.2 * dt_cap_);
     }
   }
 
@@ -218,10 +286,9 @@ class Fire {
       alpha_ *= alpha_fade;
     }
     dt_ = std::min(dt_, dt_cap_);
-    scale_by_node(f_.data(), per_mass_.data(), nodes_, a_.data());
-    coarse_.apply(f_, held_, a_);
+    accelerate(f_, a_);
     const double aa = squares_by_mass(a_.data(), mass_.data(), nodes_);
-    const double mix = aa > 0 ? alpha_ * std::sqrt(vv_ / aa) : 0.0;
+    const double mix = std::min(turn_most * dt_, aa > 0 ? alpha_ * std::sqrt(vv_ / aa) : 0.0);
     steer(1 - alpha_, mix + dt_, a_.data(), a_.size(), v_.data());
     if (contact_ && o_.friction > 0)
       for (std::size_t i = 0; i < contact_->touched.size(); ++i) rub(contact_->touched[i], whole_[i]);
@@ -254,22 +321,21 @@ class Fire {
     put(v_, node, along * n + (speed > brake ? Vec3(slide * (1 - brake / speed)) : Vec3(Vec3::Zero())));
   }
 
-  static constexpr int lattice_every = 25;
-
   Cloth& c_;
   Contact* contact_;
   const RelaxOptions& o_;
   Springs springs_;
   CoarseSpace coarse_;
   std::size_t nodes_;
-  Packed x_, v_, f_, a_;
+  Packed x_, v_, f_, a_, stiffest_;
   std::vector<double> mass_, per_mass_;
-  std::vector<char> held_;  // pinned, or at the body
+  std::vector<char> held_;  // pinned, or lately at the body
+  std::vector<int> touched_at_;
   std::vector<Vec3> whole_;
-  double dt_ = dt_start, dt_cap_ = dt_most, alpha_ = alpha_start;
+  double dt_ = dt_start, dt_cap_ = dt_most, dt_long_ = dt_most, alpha_ = alpha_start;
   double power_ = 0, vv_ = 0;
   double ceiling_ = 0, lowest_ = 0, energy_grain_ = 0;
-  bool ceiling_known_ = false;
+  bool ceiling_known_ = false, lattice_old_ = true;
   int uphill_free_ = 0, calm_ = 0;
 };
 
