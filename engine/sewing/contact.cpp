@@ -12,10 +12,13 @@ namespace {
 constexpr double lipschitz = 1.2;     // trilinear interpolation of a distance may be a little steeper than 1
 constexpr double middle_share = 0.5;  // middles of edges may sink to half the offset: chords cut curves, cloth does not
 
-constexpr double nap = 0.003;         // [m] samples further away than this sleep until all are called
-constexpr double plane_reach = 5e-5;  // [m] around a look, where the field passes for a plane
+constexpr double sag_share = 0.75;       // of the offset
+constexpr double thinnest_limb = 0.025;  // [m] radius: a wrist
+// All samples are called every so many steps of the present length; those further away sleep until then.
+constexpr double steps_asleep = 30, shortest_nap = 5e-5, longest_nap = 3e-3;  // [m]
+constexpr double plane_reach = 2e-4;  // [m] around a look, where the field passes for a plane
 
-Vec3 where(const ContactSample& s, const Packed& x) {
+inline Vec3 where(const ContactSample& s, const Packed& x) {
   const double* a = &x[4 * s.node[0]];
   if (s.count == 1) return {a[0], a[1], a[2]};
   Vec3 p = Vec3::Zero();
@@ -24,8 +27,16 @@ Vec3 where(const ContactSample& s, const Packed& x) {
   return p;
 }
 
+double path_of(const ContactSample& s, const std::vector<double>& path) {
+  if (s.count == 1) return path[s.node[0]];
+  double sum = 0;
+  for (int j = 0; j < s.count; ++j) sum += s.share[j] * path[s.node[j]];
+  return sum;
+}
+
 void call_all(Contact& c) {
-  c.call_all = c.travelled + nap;
+  const double step = c.travelled - c.travelled_before;
+  c.call_all = c.travelled + std::clamp(steps_asleep * step, shortest_nap, longest_nap);
   c.awake.clear();
   for (std::size_t i = 0; i < c.samples.size(); ++i)
     if (c.asleep_until[i] <= c.call_all) c.awake.push_back(static_cast<int>(i));
@@ -66,7 +77,8 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
     s.node[0] = n;
     c.samples.push_back(s);
   }
-  if (edge_length > 2 * field.spacing) {
+  // A chord of length h sags by h^2 / 8R towards a limb of radius R; where that leaves the skin clear, nodes will do.
+  if (edge_length * edge_length > 8 * thinnest_limb * sag_share * offset) {
     s.limit = middle_share * offset;
     s.count = 2;
     // Long edges are looked at in three places: a wrist is as thin as they are long.
@@ -90,14 +102,23 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
   return c;
 }
 
-double contact_forces(Contact& c, const Packed& x, Packed& force, bool exact) {
+double contact_forces(Contact& c, const Packed& x, const std::vector<double>& path, Packed& force, bool exact) {
   for (const int n : c.touched) std::fill_n(&c.normal[4 * n], 4, 0.0);
   c.touched.clear();
   if (c.travelled >= c.call_all) call_all(c);
+  c.travelled_before = c.travelled;
   double energy = 0;
   for (const int i : c.awake) {
     if (c.asleep_until[i] > c.travelled) continue;
     ContactSample& s = c.samples[i];
+    const double travelled = path_of(s, path);
+    if (s.known && s.gap > 0) {
+      const double left = s.gap / lipschitz - (travelled - s.seen_path);
+      if (left > 0) {
+        c.asleep_until[i] = c.travelled + left;
+        continue;
+      }
+    }
     const Vec3 p = where(s, x);
     const Vec3 moved = p - s.seen;
     if (exact || !s.known || moved.squaredNorm() > plane_reach * plane_reach) {
@@ -106,6 +127,7 @@ double contact_forces(Contact& c, const Packed& x, Packed& force, bool exact) {
     } else {
       s.gap = s.seen_gap + s.slope.dot(moved);
     }
+    s.seen_path = travelled;
     if (s.gap >= 0) {
       c.asleep_until[i] = c.travelled + s.gap / lipschitz;
       continue;
@@ -133,7 +155,7 @@ double contact_forces(Contact& c, const Packed& x, Packed& force, bool exact) {
 void wake(Contact& c) {
   for (ContactSample& s : c.samples) s.known = false;
   std::fill(c.asleep_until.begin(), c.asleep_until.end(), 0.0);
-  c.travelled = c.call_all = 0;
+  c.travelled = c.travelled_before = c.call_all = 0;
 }
 
 void strengthen(Contact& c, double load) {

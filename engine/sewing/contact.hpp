@@ -18,8 +18,9 @@ struct ContactSample {
   double limit = 0;             ///< [m] pushed out below this distance
   // What the last look at the field saw: the body's surface there as a plane, good for a hair's breadth around.
   bool known = false;
-  double gap = 0;       ///< [m] distance - limit at the last look, or by the plane since
-  double seen_gap = 0;  ///< [m] at `seen`
+  double gap = 0;        ///< [m] distance - limit at the last look, or by the plane since
+  double seen_path = 0;  ///< [m] of the sample at the last look
+  double seen_gap = 0;   ///< [m] at `seen`
   Vec3 seen = Vec3::Zero(), slope = Vec3::Zero();
 };
 
@@ -32,7 +33,7 @@ struct Contact {
   std::vector<double> asleep_until;  ///< [m] of `travelled`, per sample
   std::vector<int> awake;            ///< samples that may touch before `travelled` reaches `call_all`
   double travelled = 0;              ///< [m] sum over the steps so far of the longest a node has made
-  double call_all = 0;
+  double travelled_before = 0, call_all = 0;
   Packed normal;             ///< [N] per node: the body's push on the node, from the last contact_forces()
   std::vector<int> touched;  ///< nodes with a push
   double k_most = 0;         ///< [N/m] limit of the refresh
@@ -43,13 +44,9 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
                      double sheet_k);
 
 /// Adds the body's push to `force`, fills contact.normal and touched, returns the penalty energy [J]. `exact`: with the
-/// field itself everywhere, not its planes.
-double contact_forces(Contact& contact, const Packed& x, Packed& force, bool exact);
-
-/// Tells that no node has moved further than `step` [m] since.
-inline void travel(Contact& contact, double step) {
-  contact.travelled += step;
-}
+/// field itself everywhere, not its planes. `path` [m] per node: how far it has travelled since wake(); no node further
+/// than contact.travelled.
+double contact_forces(Contact& contact, const Packed& x, const std::vector<double>& path, Packed& force, bool exact);
 
 /// Forgets what earlier looks saw: the cloth was moved by other means.
 void wake(Contact& contact);

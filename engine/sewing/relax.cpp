@@ -13,14 +13,14 @@ namespace {
 
 // FIRE's own constants, Bitzek et al. 2006, save for the longest step: a unit step is stable because the fictitious
 // mass is the stiffness, and what is measured of the stiffest motion may allow a little more.
-constexpr double dt_most = 1.3, dt_least = 0.02, dt_start = 0.3;
+constexpr double dt_most = 1.6, dt_least = 0.02, dt_start = 0.3;
 constexpr double alpha_start = 0.1, alpha_fade = 0.99, faster = 1.1, slower = 0.5;
 constexpr int patience = 5;
 // FIRE turns the velocity towards the force. Where a slow slide goes on under small forces, that turn would amount to
 // many steps at once, too long for the stiffest motions: one node at an armhole then shakes and halts the whole cloth.
 constexpr double turn_most = 0.2;  // [dt]
 
-constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
+constexpr double stiffest_margin = 3;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
 constexpr int measure_every = 100, first_rounds = 12, later_rounds = 3;  // of power iteration
 constexpr double probe = 1e-7;                                           // [m]
 constexpr int lattice_every = 25, hold_for = 50;                         // steps
@@ -76,14 +76,15 @@ VITRINE_WIDE void steer(double keep, double push, const double* a, std::size_t c
   for (std::size_t i = 0; i < count; i += 4) store(v + i, keep * load(v + i) + push * load(a + i));
 }
 
-/// Moves by dt * v; gives the longest step's square.
-VITRINE_WIDE double move(double dt, const double* v, std::size_t nodes, double* x) {
+/// Moves by dt * v and adds the steps' lengths to `path`; gives the longest one.
+VITRINE_WIDE double move(double dt, const double* v, std::size_t nodes, double* x, double* path) {
   Four most = {};
   for (std::size_t n = 0; n < nodes; n += 4) {
     const Four s0 = dt * load(v + 4 * n), s1 = dt * load(v + 4 * n + 4), s2 = dt * load(v + 4 * n + 8),
                s3 = dt * load(v + 4 * n + 12);
-    const Four square = squares(s0, s1, s2, s3);
-    most = square > most ? square : most;
+    const Four length = root(squares(s0, s1, s2, s3));
+    most = length > most ? length : most;
+    store(path + n, load(path + n) + length);
     store(x + 4 * n, load(x + 4 * n) + s0);
     store(x + 4 * n + 4, load(x + 4 * n + 4) + s1);
     store(x + 4 * n + 8, load(x + 4 * n + 8) + s2);
@@ -102,6 +103,7 @@ class Fire {
     held_.assign(nodes_, 0);
     for (int n = 0; n < c_.size; ++n) held_[n] = c_.pinned[n];
     touched_at_.assign(nodes_, -hold_for);
+    path_.assign(nodes_, 0.0);
     if (contact_) wake(*contact_);
     update_masses();
     // An energy rise smaller than the weight lifted by a tenth of a millimetre is rounding, not an explosion.
@@ -214,7 +216,7 @@ class Fire {
 
   void forces_at(const Packed& x, Packed& out) {
     springs_.forces(x, out);
-    if (contact_) contact_forces(*contact_, x, out, false);
+    if (contact_) contact_forces(*contact_, x, path_, out, false);
   }
 
   void update_masses() {
@@ -227,7 +229,7 @@ class Fire {
 
   double forces(bool exact) {
     double energy = springs_.forces(x_, f_);
-    if (contact_) energy += contact_forces(*contact_, x_, f_, exact);
+    if (contact_) energy += contact_forces(*contact_, x_, path_, f_, exact);
     return energy;
   }
 
@@ -292,9 +294,9 @@ class Fire {
     steer(1 - alpha_, mix + dt_, a_.data(), a_.size(), v_.data());
     if (contact_ && o_.friction > 0)
       for (std::size_t i = 0; i < contact_->touched.size(); ++i) rub(contact_->touched[i], whole_[i]);
-    const double longest = std::sqrt(move(dt_, v_.data(), nodes_, x_.data()));
+    const double longest = move(dt_, v_.data(), nodes_, x_.data(), path_.data());
     if (longest > o_.step_limit) hold_back();
-    if (contact_) travel(*contact_, std::min(longest, o_.step_limit));
+    if (contact_) contact_->travelled += std::min(longest, o_.step_limit);
   }
 
   /// Nothing jumps: takes back what a step was too long.
@@ -328,7 +330,7 @@ class Fire {
   CoarseSpace coarse_;
   std::size_t nodes_;
   Packed x_, v_, f_, a_, stiffest_;
-  std::vector<double> mass_, per_mass_;
+  std::vector<double> mass_, per_mass_, path_;
   std::vector<char> held_;  // pinned, or lately at the body
   std::vector<int> touched_at_;
   std::vector<Vec3> whole_;
@@ -353,7 +355,7 @@ double residual_of(const Cloth& c, Contact* contact, double friction) {
   pack(cloth_force, force);
   if (contact) {
     wake(*contact);
-    contact_forces(*contact, x, force, true);
+    contact_forces(*contact, x, std::vector<double>(packed_nodes(c.size), 0.0), force, true);
   }
   double sum = 0;
   for (int n = 0; n < c.size; ++n) {
