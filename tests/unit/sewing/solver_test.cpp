@@ -182,6 +182,58 @@ TEST(Drape, panels_bear_every_stiffness_and_mass) {
     }
 }
 
+TEST(Relaxation, neighbours_a_million_times_heavier_and_a_thousandfold_gravity_come_to_rest) {
+  Cloth c = square(11, {1000, 300, 1e-5}, 0.2);
+  for (int n = 0; n < c.size; ++n) c.mass[n] *= n % 2 ? 1e-3 : 1e3;
+  RelaxOptions o;
+  o.residual = 1e-4;
+  c.weight = 0;
+  for (int n = 0; n < c.size; ++n) c.weight += c.pinned[n] ? 0 : c.mass[n] * g;
+  c.scale = c.weight;
+  EXPECT_TRUE(relax(c, nullptr, o).converged);
+  EXPECT_LE(residual_of(c, nullptr, 0), 1.05e-4);
+
+  Cloth heavy = square(11, {1000, 300, 1e-5}, 0.2);
+  heavy.gravity *= 1000;
+  heavy.weight *= 1000;
+  heavy.scale = heavy.weight;
+  EXPECT_TRUE(relax(heavy, nullptr, o).converged);
+}
+
+TEST(Relaxation, springs_without_stiffness_and_nodes_without_mass_do_no_harm) {
+  Cloth c = square(11, {1000, 300, 1e-5}, 0.2);
+  for (std::size_t e = 0; e < c.edge_k.size(); e += 9) c.edge_k[e] = 0;
+  for (int n = 0; n < c.size; n += 5) c.mass[n] = 0;
+  RelaxOptions o;
+  o.residual = 1e-4;
+  EXPECT_TRUE(relax(c, nullptr, o).converged);
+}
+
+TEST(Drape, single_triangles_and_one_row_strips_are_sewn) {
+  for (const int rows : {0, 1}) {
+    PanelMesh mesh;
+    if (rows == 0) {
+      mesh.nodes = {{-0.3, 1.0}, {0.3, 1.0}, {0, 1.3}};
+      mesh.triangles = {{0, 1, 2}};
+    } else {
+      mesh = scene::grid_mesh(0.6, 0.05, 12, rows, {-0.3, 1.0});
+    }
+    Pattern p;
+    p.meshes = {mesh, mesh};
+    p.panels.resize(2);
+    for (const int end : rows == 0 ? std::vector<int>{0, 1} : std::vector<int>{0, 12, 13, 25})
+      p.pairs.push_back({0, end, 1, end, mesh.nodes[end].x() < 0 ? 0 : 1});
+    const std::vector<Pattern> levels{p};
+    SewingOptions o;
+    o.max_iterations = 2000;
+    const auto r = sew_and_drape(levels, scene::place_flat(p, 0.16), scene::cotton(), scene::woman(), o);
+    ASSERT_TRUE(r) << rows;
+    EXPECT_FALSE(r->status.empty());
+    for (const auto& panel : r->positions)
+      for (const Vec3& q : panel) EXPECT_TRUE(q.allFinite()) << rows;
+  }
+}
+
 TEST(Relaxation, stiffness_and_mass_scaled_by_powers_of_two_give_the_same_bytes) {
   for (const double k : {0.5, 1e2, 3e5}) {
     RelaxOptions o;
