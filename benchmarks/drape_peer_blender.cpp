@@ -19,8 +19,9 @@ std::string quoted(const std::string& text) {
 nlohmann::ordered_json run_blender(const std::string& script, const std::string& folder, double stop, int frames) {
   char tail[100];
   std::snprintf(tail, sizeof tail, " quality=10 frames=%d stop=%g 2>/dev/null", frames, stop);
-  const std::string command =
-      "blender -b --factory-startup -t 1 -P " + quoted(script) + " -- data=" + quoted(folder) + tail;
+  // One thread, as here; threads that wait by spinning would be counted as work.
+  const std::string command = "OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive blender -b --factory-startup -t 1 -P " +
+                              quoted(script) + " -- data=" + quoted(folder) + tail;
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) throw std::runtime_error("blender cannot be started");
   std::string output;
