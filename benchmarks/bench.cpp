@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "drape_bench.hpp"
 #include "mesh_bench.hpp"
 
 int main(int argc, char** argv) {
@@ -11,8 +12,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   const auto mesh = vitrine::bench::add_mesh_command(app);
   const auto peers = vitrine::bench::add_mesh_peers_command(app);
+  const auto drape = vitrine::bench::add_drape_command(app);
   CLI11_PARSE(app, argc, argv);
   try {
+    if (app.got_subcommand("drape")) return drape();
     return app.got_subcommand("mesh") ? mesh() : peers();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "vitrine-bench: %s\n", error.what());

@@ -21,4 +21,6 @@ if(VITRINE_BENCHMARKS)
   # A program to compare with; vitrine-bench leaves it out where it is not installed.
   find_library(GMSH_LIBRARY gmsh)                                    # debian-peer: libgmsh-dev
   find_path(GMSH_INCLUDE_DIR gmsh.h)
+  # vitrine-bench drape --blender starts it; nothing is linked.
+  find_program(BLENDER_PROGRAM blender)                              # debian-peer: blender
 endif()

@@ -12,19 +12,52 @@ namespace {
 constexpr double lipschitz = 1.2;     // trilinear interpolation of a distance may be a little steeper than 1
 constexpr double middle_share = 0.5;  // middles of edges may sink to half the offset: chords cut curves, cloth does not
 
-Vec3 where(const ContactSample& s, const std::vector<double>& x) {
-  const double* a = &x[3 * s.node[0]];
+constexpr double sag_share = 0.75;       // of the offset
+constexpr double thinnest_limb = 0.025;  // [m] radius: a wrist
+// All samples are called every so many steps of the present length; those further away sleep until then.
+constexpr double steps_asleep = 30, shortest_nap = 5e-5, longest_nap = 3e-3;  // [m]
+constexpr double plane_reach = 2e-4;  // [m] around a look, where the field passes for a plane
+
+inline Vec3 where(const ContactSample& s, const Packed& x) {
+  const double* a = &x[4 * s.node[0]];
   if (s.count == 1) return {a[0], a[1], a[2]};
   Vec3 p = Vec3::Zero();
   for (int j = 0; j < s.count; ++j)
-    p += s.share[j] * Vec3(x[3 * s.node[j]], x[3 * s.node[j] + 1], x[3 * s.node[j] + 2]);
+    p += s.share[j] * Vec3(x[4 * s.node[j]], x[4 * s.node[j] + 1], x[4 * s.node[j] + 2]);
   return p;
 }
 
-double travelled(const ContactSample& s, const std::vector<double>& path) {
+double path_of(const ContactSample& s, const std::vector<double>& path) {
+  if (s.count == 1) return path[s.node[0]];
   double sum = 0;
   for (int j = 0; j < s.count; ++j) sum += s.share[j] * path[s.node[j]];
   return sum;
+}
+
+void call_all(Contact& c) {
+  const double step = c.travelled - c.travelled_before;
+  c.call_all = c.travelled + std::clamp(steps_asleep * step, shortest_nap, longest_nap);
+  c.awake.clear();
+  for (std::size_t i = 0; i < c.samples.size(); ++i)
+    if (c.asleep_until[i] <= c.call_all) c.awake.push_back(static_cast<int>(i));
+}
+
+void look(const DistanceField& field, ContactSample& s, const Vec3& p) {
+  s.known = true;
+  s.seen = p;
+  s.seen_gap = smooth_distance(field, p, s.slope) - s.limit;
+  // The gradient as it is, so that force and energy agree; only where the field is flat (its ridges, deep inside) does
+  // the push keep a useful strength.
+  const double steep = std::max(s.slope.norm(), 1e-9);
+  if (s.seen_gap < 0 && steep < 0.3) s.slope *= 0.3 / steep;
+}
+
+/// Whether a sample is too far from the body to feel it soon.
+bool far_away(const Contact& c, std::size_t i, const Packed& x) {
+  const ContactSample& s = c.samples[i];
+  const double far = 0.2 * c.offset, sleeps = lipschitz * (c.asleep_until[i] - c.travelled);
+  if (sleeps > far) return true;
+  return (s.known && sleeps <= 0 ? s.gap : c.field->distance(where(s, x)) - s.limit) > far;
 }
 
 }  // namespace
@@ -34,8 +67,7 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
   Contact c;
   c.field = &field;
   c.offset = offset;
-  c.path.assign(cloth.size, 0.0);
-  c.normal.assign(3 * static_cast<std::size_t>(cloth.size), 0.0);
+  c.normal.assign(4 * packed_nodes(cloth.size), 0.0);
   const double k = std::max(0.3 * sheet_k, load / (0.05 * offset));
   c.k_most = 64 * k;
   ContactSample s;
@@ -45,7 +77,8 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
     s.node[0] = n;
     c.samples.push_back(s);
   }
-  if (edge_length > 2 * field.spacing) {
+  // A chord of length h sags by h^2 / 8R towards a limb of radius R; where that leaves the skin clear, nodes will do.
+  if (edge_length * edge_length > 8 * thinnest_limb * sag_share * offset) {
     s.limit = middle_share * offset;
     s.count = 2;
     // Long edges are looked at in three places: a wrist is as thin as they are long.
@@ -65,33 +98,64 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
       c.samples.push_back(s);
     }
   }
+  c.asleep_until.assign(c.samples.size(), 0.0);
   return c;
 }
 
-double contact_forces(Contact& c, const std::vector<double>& x, std::vector<double>& force, bool fresh) {
-  std::fill(c.normal.begin(), c.normal.end(), 0.0);
+double contact_forces(Contact& c, const Packed& x, const std::vector<double>& path, Packed& force, bool exact) {
+  for (const int n : c.touched) std::fill_n(&c.normal[4 * n], 4, 0.0);
+  c.touched.clear();
+  if (c.travelled >= c.call_all) call_all(c);
+  c.travelled_before = c.travelled;
   double energy = 0;
-  for (ContactSample& s : c.samples) {
-    if (!fresh && s.gap > lipschitz * (travelled(s, c.path) - s.travelled)) continue;
-    Vec3 gradient;
-    s.gap = smooth_distance(*c.field, where(s, x), gradient) - s.limit;
-    s.travelled = travelled(s, c.path);
-    if (s.gap >= 0) continue;
-    // The gradient as it is, so that force and energy agree; only where the field is flat (its ridges, deep inside)
-    // does the push keep a useful strength.
-    const double steep = std::max(gradient.norm(), 1e-9);
-    if (steep < 0.3) gradient *= 0.3 / steep;
+  for (const int i : c.awake) {
+    if (c.asleep_until[i] > c.travelled) continue;
+    ContactSample& s = c.samples[i];
+    const double travelled = path_of(s, path);
+    if (s.known && s.gap > 0) {
+      const double left = s.gap / lipschitz - (travelled - s.seen_path);
+      if (left > 0) {
+        c.asleep_until[i] = c.travelled + left;
+        continue;
+      }
+    }
+    const Vec3 p = where(s, x);
+    const Vec3 moved = p - s.seen;
+    if (exact || !s.known || moved.squaredNorm() > plane_reach * plane_reach) {
+      look(*c.field, s, p);
+      s.gap = s.seen_gap;
+    } else {
+      s.gap = s.seen_gap + s.slope.dot(moved);
+    }
+    s.seen_path = travelled;
+    if (s.gap >= 0) {
+      c.asleep_until[i] = c.travelled + s.gap / lipschitz;
+      continue;
+    }
     // Deep inside, the push stays that of the offset's own depth: a spring over centimetres would tear the cloth.
     const double depth = std::min(-s.gap, 2 * c.offset);
     energy += s.k * depth * (-s.gap - 0.5 * depth);
-    const Vec3 push = gradient * (s.k * depth);
-    for (int j = 0; j < s.count; ++j)
-      for (int a = 0; a < 3; ++a) {
-        force[3 * s.node[j] + a] += s.share[j] * push[a];
-        c.normal[3 * s.node[j] + a] += s.share[j] * push[a];
+    const Vec3 push = s.slope * (s.k * depth);
+    for (int j = 0; j < s.count; ++j) {
+      const int n = s.node[j];
+      double* normal = &c.normal[4 * n];
+      if (normal[3] == 0) {
+        normal[3] = 1;  // the unused fourth number marks a node that is on the list
+        c.touched.push_back(n);
       }
+      for (int a = 0; a < 3; ++a) {
+        force[4 * n + a] += s.share[j] * push[a];
+        normal[a] += s.share[j] * push[a];
+      }
+    }
   }
   return energy;
+}
+
+void wake(Contact& c) {
+  for (ContactSample& s : c.samples) s.known = false;
+  std::fill(c.asleep_until.begin(), c.asleep_until.end(), 0.0);
+  c.travelled = c.travelled_before = c.call_all = 0;
 }
 
 void strengthen(Contact& c, double load) {
@@ -100,22 +164,22 @@ void strengthen(Contact& c, double load) {
   for (ContactSample& s : c.samples) s.k = std::max(s.k, k);
 }
 
-bool refresh_contact(Contact& c, const std::vector<double>& x) {
+bool refresh_contact(Contact& c) {
   bool raised = false;
-  for (ContactSample& s : c.samples) {
-    if (s.gap >= 0 || s.k >= c.k_most) continue;
-    Vec3 gradient;
-    if (s.limit - smooth_distance(*c.field, where(s, x), gradient) < 0.05 * c.offset) continue;
+  for (const int i : c.awake) {
+    ContactSample& s = c.samples[i];
+    if (!s.known || -s.gap < 0.05 * c.offset || s.k >= c.k_most) continue;
     s.k = std::min(2 * s.k, c.k_most);
     raised = true;
   }
   return raised;
 }
 
-void add_contact_stiffness(const Contact& c, const std::vector<double>& x, std::vector<double>& mass) {
-  for (const ContactSample& s : c.samples) {
+void add_contact_stiffness(const Contact& c, const Packed& x, std::vector<double>& mass) {
+  for (std::size_t i = 0; i < c.samples.size(); ++i) {
+    const ContactSample& s = c.samples[i];
     // Nodes always carry their penalty, so that touching down changes no mass; middles rarely touch.
-    if (s.count > 1 && c.field->distance(where(s, x)) > s.limit + 0.2 * c.offset) continue;
+    if (s.count > 1 && far_away(c, i, x)) continue;
     for (int j = 0; j < s.count; ++j) mass[s.node[j]] += s.k * s.share[j];
   }
 }

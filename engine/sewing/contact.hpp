@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "cloth.hpp"
+#include "springs.hpp"
 #include "vitrine/model/body.hpp"
 
 namespace vitrine::sewing {
@@ -15,10 +16,12 @@ struct ContactSample {
   double share[3] = {1, 0, 0};  ///< [-] barycentric place
   double k = 0;                 ///< [N/m] penalty
   double limit = 0;             ///< [m] pushed out below this distance
-  // What the last look at the field saw; fields are 1-Lipschitz, so a sample needs no second look before it has
-  // travelled through the gap.
-  double gap = 0;        ///< [m] distance - limit, then
-  double travelled = 0;  ///< [m] path of its nodes, then
+  // What the last look at the field saw: the body's surface there as a plane, good for a hair's breadth around.
+  bool known = false;
+  double gap = 0;        ///< [m] distance - limit at the last look, or by the plane since
+  double seen_path = 0;  ///< [m] of the sample at the last look
+  double seen_gap = 0;   ///< [m] at `seen`
+  Vec3 seen = Vec3::Zero(), slope = Vec3::Zero();
 };
 
 /// Penalty contact against the voxel body (cloth held `offset` above the skin).
@@ -26,28 +29,37 @@ struct Contact {
   const DistanceField* field = nullptr;
   double offset = 0;
   std::vector<ContactSample> samples;
-  std::vector<double> path;    ///< [m] per node: travelled so far
-  std::vector<double> normal;  ///< [N] 3 per node: the body's push on the node, from the last forces()
-  double k_most = 0;           ///< [N/m] limit of the refresh
+  /// Fields are 1-Lipschitz: a sample needs no look before the cloth has travelled through its gap.
+  std::vector<double> asleep_until;  ///< [m] of `travelled`, per sample
+  std::vector<int> awake;            ///< samples that may touch before `travelled` reaches `call_all`
+  double travelled = 0;              ///< [m] sum over the steps so far of the longest a node has made
+  double travelled_before = 0, call_all = 0;
+  Packed normal;             ///< [N] per node: the body's push on the node, from the last contact_forces()
+  std::vector<int> touched;  ///< nodes with a push
+  double k_most = 0;         ///< [N/m] limit of the refresh
 };
 
 /// Samples for a cloth of the given edge length. `load` [N] is the push an ordinary node may have to bear.
 Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double edge_length, double load,
                      double sheet_k);
 
-/// Adds the body's push to `force`, fills contact.normal, returns the penalty energy [J]. `fresh`: looks at every
-/// sample.
-double contact_forces(Contact& contact, const std::vector<double>& x, std::vector<double>& force, bool fresh);
+/// Adds the body's push to `force`, fills contact.normal and touched, returns the penalty energy [J]. `exact`: with the
+/// field itself everywhere, not its planes. `path` [m] per node: how far it has travelled since wake(); no node further
+/// than contact.travelled.
+double contact_forces(Contact& contact, const Packed& x, const std::vector<double>& path, Packed& force, bool exact);
+
+/// Forgets what earlier looks saw: the cloth was moved by other means.
+void wake(Contact& contact);
 
 /// Makes the body strong enough to bear `load` [N] at any place without the cloth sinking in deeper than half the
 /// offset.
 void strengthen(Contact& contact, double load);
 
 /// Raises the penalty where a sample sinks deeper than a twentieth of the offset; true if it raised any.
-bool refresh_contact(Contact& contact, const std::vector<double>& x);
+bool refresh_contact(Contact& contact);
 
 /// Adds the contact's share to the fictitious masses.
-void add_contact_stiffness(const Contact& contact, const std::vector<double>& x, std::vector<double>& mass);
+void add_contact_stiffness(const Contact& contact, const Packed& x, std::vector<double>& mass);
 
 /// Moves nodes that start inside the offset out of it: along the field's gradient, or to their panel's own side when
 /// the nearest way out would be the wrong one. Returns how many were more than 1 cm deep.

@@ -4,13 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coarse_space.hpp"
+#include "lanes.hpp"
+#include "springs.hpp"
+
 namespace vitrine::sewing {
 namespace {
 
-// FIRE's own constants, Bitzek et al. 2006; a unit time step is stable because the fictitious mass is the stiffness.
-constexpr double dt_most = 1.0, dt_least = 0.02, dt_start = 0.3;
+// FIRE's own constants, Bitzek et al. 2006, save for the longest step: a unit step is stable because the fictitious
+// mass is the stiffness, and what is measured of the stiffest motion may allow a little more.
+constexpr double dt_most = 1.6, dt_least = 0.02, dt_start = 0.3;
 constexpr double alpha_start = 0.1, alpha_fade = 0.99, faster = 1.1, slower = 0.5;
 constexpr int patience = 5;
+// FIRE turns the velocity towards the force. Where a slow slide goes on under small forces, that turn would amount to
+// many steps at once, too long for the stiffest motions: one node at an armhole then shakes and halts the whole cloth.
+constexpr double turn_most = 0.1;  // [dt]
+
+constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
+constexpr int measure_every = 100, first_rounds = 12, later_rounds = 3;  // of power iteration
+constexpr double probe = 1e-7;                                           // [m]
+constexpr int lattice_every = 25, hold_for = 50;                         // steps
 
 /// The part of a node's force that friction cannot hold. `push` is the body's push on the node.
 Vec3 outside_cone(const Vec3& force, const Vec3& push, double mu) {
@@ -23,43 +36,117 @@ Vec3 outside_cone(const Vec3& force, const Vec3& push, double mu) {
   return along * n + (t > held ? Vec3(tangent * ((t - held) / t)) : Vec3(Vec3::Zero()));
 }
 
-Vec3 at(const std::vector<double>& v, int n) {
-  return {v[3 * n], v[3 * n + 1], v[3 * n + 2]};
+Vec3 at(const Packed& v, int n) {
+  return {v[4 * n], v[4 * n + 1], v[4 * n + 2]};
+}
+
+void put(Packed& v, int n, const Vec3& value) {
+  for (int a = 0; a < 3; ++a) v[4 * n + a] = value[a];
+}
+
+struct Sums {
+  double force = 0;  ///< sum of |f|
+  double power = 0, vv = 0;
+};
+
+VITRINE_WIDE Sums sums_of(const double* f, const double* v, const double* mass, std::size_t nodes) {
+  Four force = {}, power = {}, vv = {};
+  for (std::size_t n = 0; n < nodes; n += 4) {
+    const Four f0 = load(f + 4 * n), f1 = load(f + 4 * n + 4), f2 = load(f + 4 * n + 8), f3 = load(f + 4 * n + 12);
+    const Four v0 = load(v + 4 * n), v1 = load(v + 4 * n + 4), v2 = load(v + 4 * n + 8), v3 = load(v + 4 * n + 12);
+    force += root(squares(f0, f1, f2, f3));
+    power += f0 * v0 + f1 * v1 + f2 * v2 + f3 * v3;
+    vv += load(mass + n) * squares(v0, v1, v2, v3);
+  }
+  return {sum(force), sum(power), sum(vv)};
+}
+
+VITRINE_WIDE void scale_by_node(const double* f, const double* per_mass, std::size_t nodes, double* out) {
+  for (std::size_t n = 0; n < nodes; ++n) store(out + 4 * n, per_mass[n] * load(f + 4 * n));
+}
+
+VITRINE_WIDE double squares_by_mass(const double* a, const double* mass, std::size_t nodes) {
+  Four aa = {};
+  for (std::size_t n = 0; n < nodes; n += 4)
+    aa += load(mass + n) * squares(load(a + 4 * n), load(a + 4 * n + 4), load(a + 4 * n + 8), load(a + 4 * n + 12));
+  return sum(aa);
+}
+
+VITRINE_WIDE void steer(double keep, double push, const double* a, std::size_t count, double* v) {
+  for (std::size_t i = 0; i < count; i += 4) store(v + i, keep * load(v + i) + push * load(a + i));
+}
+
+/// Moves by dt * v and adds the steps' lengths to `path`; gives the longest one.
+VITRINE_WIDE double move(double dt, const double* v, std::size_t nodes, double* x, double* path) {
+  Four most = {};
+  for (std::size_t n = 0; n < nodes; n += 4) {
+    const Four s0 = dt * load(v + 4 * n), s1 = dt * load(v + 4 * n + 4), s2 = dt * load(v + 4 * n + 8),
+               s3 = dt * load(v + 4 * n + 12);
+    const Four length = root(squares(s0, s1, s2, s3));
+    most = length > most ? length : most;
+    store(path + n, load(path + n) + length);
+    store(x + 4 * n, load(x + 4 * n) + s0);
+    store(x + 4 * n + 4, load(x + 4 * n + 4) + s1);
+    store(x + 4 * n + 8, load(x + 4 * n + 8) + s2);
+    store(x + 4 * n + 12, load(x + 4 * n + 12) + s3);
+  }
+  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
 class Fire {
  public:
   Fire(Cloth& cloth, Contact* contact, const RelaxOptions& options)
-      : c_(cloth), contact_(contact), o_(options), v_(cloth.x.size(), 0.0), f_(cloth.x.size(), 0.0) {
+      : c_(cloth), contact_(contact), o_(options), springs_(cloth), coarse_(cloth), nodes_(packed_nodes(cloth.size)) {
+    pack(cloth.x, x_);
+    v_.assign(x_.size(), 0.0);
+    f_ = a_ = v_;
+    held_.assign(nodes_, 0);
+    for (int n = 0; n < c_.size; ++n) held_[n] = c_.pinned[n];
+    touched_at_.assign(nodes_, -hold_for);
+    path_.assign(nodes_, 0.0);
+    if (contact_) wake(*contact_);
     update_masses();
     // An energy rise smaller than the weight lifted by a tenth of a millimetre is rounding, not an explosion.
     energy_grain_ = 1e-4 * c_.scale;
   }
 
   RelaxOutcome run() {
+    RelaxOutcome out = steps();
+    unpack(x_, c_.x);
+    return out;
+  }
+
+ private:
+  RelaxOutcome steps() {
     RelaxOutcome out;
-    bool fresh = true;
+    bool exact = true;
     for (int it = 0;; ++it) {
-      const double energy = forces(fresh);
-      fresh = false;
+      const bool look = it % o_.check_every == 0;
+      exact = exact || look;
+      // From the second step on, when the nodes at the body are known.
+      if (it % measure_every == 1) limit_step(it == 1 ? first_rounds : later_rounds);
+      const double energy = forces(exact);
+      const double residual = net_forces() / c_.scale;
       out.iterations = it;
       out.energy = energy;
-      const double residual = net_forces();
-      const bool look = it % o_.check_every == 0;
+      out.residual = residual;
       if (!std::isfinite(residual) || !std::isfinite(energy)) {
         out.finite = false;
         return out;
       }
-      out.residual = residual / c_.scale;
-      if (look || out.residual <= o_.residual) {
-        const bool raised = contact_ && refresh_contact(*contact_, c_.x);
-        if (!raised && out.residual <= o_.residual) {
+      const bool there = exact && residual <= o_.residual;
+      if (look || there) {
+        const bool raised = contact_ && refresh_contact(*contact_);
+        if (!raised && there) {
           out.converged = true;
           return out;
         }
-        if (look && o_.stop && o_.stop(it, out.residual)) {
-          out.stopped = true;
-          return out;
+        if (look && o_.stop) {
+          unpack(x_, c_.x);
+          if (o_.stop(it, residual)) {
+            out.stopped = true;
+            return out;
+          }
         }
         if (raised || it % 100 == 0) {
           update_masses();
@@ -68,71 +155,120 @@ class Fire {
       }
       if (it >= o_.max_iterations) return out;
       watch(energy);
+      release(it);
       advance();
+      exact = residual <= 1.2 * o_.residual;
     }
   }
 
- private:
-  void update_masses() {
-    mass_ = node_stiffness(c_);
-    if (contact_) add_contact_stiffness(*contact_, c_.x, mass_);
+  /// Nodes at the body leave the lattices at once, and come back some time after they left it: those that touch now and
+  /// then would change the lattices' masses at every step.
+  void release(int it) {
+    if (contact_)
+      for (const int n : contact_->touched) {
+        touched_at_[n] = it;
+        if (!held_[n]) held_[n] = 1, lattice_old_ = true;
+      }
+    if (it % lattice_every == 0) {
+      for (int n = 0; n < c_.size; ++n) held_[n] = c_.pinned[n] || it - touched_at_[n] < hold_for;
+      lattice_old_ = true;
+    }
+    if (lattice_old_) coarse_.update(held_, mass_);
+    lattice_old_ = false;
   }
 
-  double forces(bool fresh) {
-    std::fill(f_.begin(), f_.end(), 0.0);
-    double energy = internal_forces(c_, c_.x, f_);
-    if (contact_) energy += contact_forces(*contact_, c_.x, f_, fresh);
+  /// Acceleration by nodes and lattices.
+  void accelerate(const Packed& force, Packed& out) {
+    scale_by_node(force.data(), per_mass_.data(), nodes_, out.data());
+    coarse_.apply(force, held_, out);
+  }
+
+  /// Power iteration on the stiffest motion, with the forces' own differences; goes on from where the last one ended.
+  void limit_step(int rounds) {
+    if (stiffest_.empty()) {
+      stiffest_.assign(x_.size(), 0.0);
+      std::uint32_t seed = 1;
+      for (int n = 0; n < c_.size; ++n)
+        for (int a = 0; a < 3; ++a) {
+          seed = seed * 1664525u + 1013904223u;
+          if (!c_.pinned[n]) stiffest_[4 * n + a] = static_cast<double>(seed >> 8) / (1 << 24) - 0.5;
+        }
+    }
+    Packed there(x_.size()), here(x_.size()), change(x_.size());
+    forces_at(x_, here);
+    for (int round = 0; round < rounds; ++round) {
+      double most = 0;
+      for (const double m : stiffest_) most = std::max(most, std::abs(m));
+      if (!(most > 0)) return;
+      for (std::size_t i = 0; i < x_.size(); ++i) {
+        stiffest_[i] *= probe / most;
+        there[i] = x_[i] + stiffest_[i];
+      }
+      forces_at(there, change);
+      for (std::size_t i = 0; i < x_.size(); ++i) change[i] = here[i] - change[i];
+      const double before = squares_by_mass(stiffest_.data(), mass_.data(), nodes_);
+      accelerate(change, stiffest_);
+      const double after = squares_by_mass(stiffest_.data(), mass_.data(), nodes_);
+      dt_long_ = std::min(dt_most, std::sqrt(stiffest_margin / std::sqrt(after / before)));
+    }
+    dt_cap_ = std::min(dt_cap_, dt_long_);
+  }
+
+  void forces_at(const Packed& x, Packed& out) {
+    springs_.forces(x, out);
+    if (contact_) contact_forces(*contact_, x, path_, out, false);
+  }
+
+  void update_masses() {
+    mass_ = node_stiffness(c_);
+    if (contact_) add_contact_stiffness(*contact_, x_, mass_);
+    mass_.resize(nodes_, 0.0);
+    per_mass_.assign(nodes_, 0.0);
+    for (int n = 0; n < c_.size; ++n) per_mass_[n] = c_.pinned[n] ? 0 : 1 / mass_[n];
+  }
+
+  double forces(bool exact) {
+    double energy = springs_.forces(x_, f_);
+    if (contact_) energy += contact_forces(*contact_, x_, path_, f_, exact);
     return energy;
   }
 
-  /// Sums the stop test and the products FIRE steers by, both with the force that friction leaves over.
+  /// Sums the stop test and the products FIRE steers by, both with the force that friction leaves over. Leaves that
+  /// force in f_, and the whole one of the nodes at the body in `whole_`.
   double net_forces() {
-    double sum = 0;
-    power_ = ff_ = vv_ = 0;
-    const bool rough = contact_ && o_.friction > 0;
-    for (int n = 0; n < c_.size; ++n) {
-      double* f = &f_[3 * n];
-      if (c_.pinned[n]) {
-        f[0] = f[1] = f[2] = 0;
-        continue;
+    for (int n = 0; n < c_.size; ++n)
+      if (c_.pinned[n]) put(f_, n, Vec3::Zero());
+    if (contact_) {
+      whole_.clear();
+      for (const int n : contact_->touched) {
+        whole_.push_back(at(f_, n));
+        if (o_.friction > 0 && !c_.pinned[n]) put(f_, n, outside_cone(at(f_, n), at(contact_->normal, n), o_.friction));
       }
-      const double* v = &v_[3 * n];
-      double g[3] = {f[0], f[1], f[2]};
-      if (rough) {
-        const double* p = &contact_->normal[3 * n];
-        if (p[0] != 0 || p[1] != 0 || p[2] != 0) {
-          const Vec3 left = outside_cone(Vec3(f[0], f[1], f[2]), Vec3(p[0], p[1], p[2]), o_.friction);
-          for (int a = 0; a < 3; ++a) g[a] = left[a];
-        }
-      }
-      const double square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-      sum += std::sqrt(square);
-      power_ += g[0] * v[0] + g[1] * v[1] + g[2] * v[2];
-      ff_ += square / mass_[n];
-      vv_ += mass_[n] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     }
-    return sum;
+    const Sums s = sums_of(f_.data(), v_.data(), mass_.data(), nodes_);
+    power_ = s.power;
+    vv_ = s.vv;
+    return s.force;
   }
 
-  /// Energy may fall, or turn into the fictitious motion's; when the sum rises, the step was too long.
+  /// Energy may fall, or turn into the fictitious motion's; when it rises above where the motion began, the step was
+  /// too long.
   void watch(double energy) {
-    // What symplectic Euler keeps exactly for a spring; plain energy would swing by half with stiff springs.
-    const double total = energy + 0.5 * vv_ + 0.5 * dt_ * power_;
     if (!ceiling_known_) {
-      ceiling_ = total;
+      ceiling_ = energy;
       lowest_ = energy;
       ceiling_known_ = true;
       return;
     }
     lowest_ = std::min(lowest_, energy);
     // A tenth of what was gained: growing steps and clamped steps shift the sum a little; an explosion doubles it.
-    if (total > ceiling_ + 0.1 * (ceiling_ - lowest_) + energy_grain_) {
+    if (energy > ceiling_ + 0.1 * (ceiling_ - lowest_) + energy_grain_) {
       dt_cap_ = std::max(dt_least, 0.5 * dt_cap_);
       halt();
       ceiling_known_ = false;
       calm_ = 0;
     } else if (++calm_ % 20 == 0) {
-      dt_cap_ = std::min(dt_most, 1.2 * dt_cap_);
+      dt_cap_ = std::min(dt_long_, 1.2 * dt_cap_);
     }
   }
 
@@ -152,52 +288,56 @@ class Fire {
       alpha_ *= alpha_fade;
     }
     dt_ = std::min(dt_, dt_cap_);
-    const double mix = ff_ > 0 ? alpha_ * std::sqrt(vv_ / ff_) : 0.0;
-    const bool rough = contact_ && o_.friction > 0;
+    accelerate(f_, a_);
+    const double aa = squares_by_mass(a_.data(), mass_.data(), nodes_);
+    const double mix = std::min(turn_most * dt_, aa > 0 ? alpha_ * std::sqrt(vv_ / aa) : 0.0);
+    steer(1 - alpha_, mix + dt_, a_.data(), a_.size(), v_.data());
+    if (contact_ && o_.friction > 0)
+      for (std::size_t i = 0; i < contact_->touched.size(); ++i) rub(contact_->touched[i], whole_[i]);
+    const double longest = move(dt_, v_.data(), nodes_, x_.data(), path_.data());
+    if (longest > o_.step_limit) hold_back();
+    if (contact_) contact_->travelled += std::min(longest, o_.step_limit);
+  }
+
+  /// Nothing jumps: takes back what a step was too long.
+  void hold_back() {
     for (int n = 0; n < c_.size; ++n) {
-      if (c_.pinned[n]) continue;
-      double* v = &v_[3 * n];
-      const double* f = &f_[3 * n];
-      const double per_mass = 1 / mass_[n];
-      Vec3 push = Vec3::Zero();
-      if (rough) push = at(contact_->normal, n);
-      const bool touching = rough && push.squaredNorm() > 0;
-      Vec3 steer(f[0], f[1], f[2]);
-      if (touching) steer = outside_cone(steer, push, o_.friction);
-      for (int a = 0; a < 3; ++a) v[a] = (1 - alpha_) * v[a] + mix * per_mass * steer[a] + dt_ * per_mass * f[a];
-      if (touching) rub(v, push, per_mass);
-      double step[3], length = 0;
-      for (int a = 0; a < 3; ++a) step[a] = dt_ * v[a], length += step[a] * step[a];
-      length = std::sqrt(length);
-      if (length > o_.step_limit) {
-        const double shrink = o_.step_limit / length;
-        for (int a = 0; a < 3; ++a) step[a] *= shrink, v[a] *= shrink;
-        length = o_.step_limit;
-      }
-      for (int a = 0; a < 3; ++a) c_.x[3 * n + a] += step[a];
-      if (contact_) contact_->path[n] += length;
+      const Vec3 v = at(v_, n);
+      const double length = dt_ * v.norm();
+      if (length <= o_.step_limit) continue;
+      const double share = o_.step_limit / length;
+      put(x_, n, at(x_, n) - (1 - share) * dt_ * v);
+      put(v_, n, share * v);
     }
   }
 
-  /// Coulomb: friction takes from the sliding velocity at most what mu N gives in one step.
-  void rub(double* v, const Vec3& push, double per_mass) const {
-    const double load = push.norm();
-    const Vec3 n = push / load, velocity(v[0], v[1], v[2]);
+  /// Coulomb: friction takes from the sliding velocity at most what mu N gives in one step. The node is driven by its
+  /// whole force, not by what friction leaves of it at rest.
+  void rub(int node, const Vec3& whole) {
+    const Vec3 push = at(contact_->normal, node);
+    const double load = push.norm(), per_mass = per_mass_[node];
+    const Vec3 n = push / load, velocity = at(v_, node) + dt_ * per_mass * (whole - at(f_, node));
     const double along = velocity.dot(n);
     const Vec3 slide = velocity - along * n;
     const double speed = slide.norm(), brake = o_.friction * load * dt_ * per_mass;
-    const Vec3 left = along * n + (speed > brake ? Vec3(slide * (1 - brake / speed)) : Vec3(Vec3::Zero()));
-    for (int a = 0; a < 3; ++a) v[a] = left[a];
+    put(v_, node, along * n + (speed > brake ? Vec3(slide * (1 - brake / speed)) : Vec3(Vec3::Zero())));
   }
 
   Cloth& c_;
   Contact* contact_;
   const RelaxOptions& o_;
-  std::vector<double> v_, f_, mass_;
-  double dt_ = dt_start, dt_cap_ = dt_most, alpha_ = alpha_start;
-  double power_ = 0, ff_ = 0, vv_ = 0;
+  Springs springs_;
+  CoarseSpace coarse_;
+  std::size_t nodes_;
+  Packed x_, v_, f_, a_, stiffest_;
+  std::vector<double> mass_, per_mass_, path_;
+  std::vector<char> held_;  // pinned, or lately at the body
+  std::vector<int> touched_at_;
+  std::vector<Vec3> whole_;
+  double dt_ = dt_start, dt_cap_ = dt_most, dt_long_ = dt_most, alpha_ = alpha_start;
+  double power_ = 0, vv_ = 0;
   double ceiling_ = 0, lowest_ = 0, energy_grain_ = 0;
-  bool ceiling_known_ = false;
+  bool ceiling_known_ = false, lattice_old_ = true;
   int uphill_free_ = 0, calm_ = 0;
 };
 
@@ -208,9 +348,15 @@ RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options) 
 }
 
 double residual_of(const Cloth& c, Contact* contact, double friction) {
-  std::vector<double> force(c.x.size(), 0.0);
-  internal_forces(c, c.x, force);
-  if (contact) contact_forces(*contact, c.x, force, true);
+  std::vector<double> cloth_force(c.x.size(), 0.0);
+  internal_forces(c, c.x, cloth_force);
+  Packed x, force;
+  pack(c.x, x);
+  pack(cloth_force, force);
+  if (contact) {
+    wake(*contact);
+    contact_forces(*contact, x, std::vector<double>(packed_nodes(c.size), 0.0), force, true);
+  }
   double sum = 0;
   for (int n = 0; n < c.size; ++n) {
     if (c.pinned[n]) continue;

@@ -10,6 +10,7 @@ namespace {
 
 // The pull starts gentle, so that panels travel as a whole before their borders stretch, and doubles until they meet.
 constexpr int stages = 8, stage_iterations = 600;
+constexpr int stall = 60;              // iterations without a tenth of the gap gained
 constexpr double first_strain = 0.02;  // the force limit of the first stage, as a strain of the cloth at the seam
 constexpr double growth = 2.2;         // far past what cloth bears: a seam that stays open is not a matter of strength,
                                        // and one that closes at such a strain is found overstretched afterwards
@@ -59,11 +60,18 @@ Closing close_seams(Cloth& cloth, Contact& contact, const Pattern& pattern, cons
     o.max_iterations = stage_iterations;
     o.step_limit = std::min(0.02, edge_length);
     o.check_every = 10;
-    o.stop = [&](int, double) { return widest() < meet; };
+    double best = widest();
+    int gained = 0;
+    o.stop = [&](int it, double) {
+      const double now = widest();
+      if (now < 0.9 * best) best = now, gained = it;
+      // A pull that is used up makes way for a stronger one.
+      return now < meet || it > gained + stall;
+    };
     const RelaxOutcome r = relax(cloth, &contact, o);
     out.iterations += r.iterations;
     out.finite = out.finite && r.finite;
-    if (r.stopped || !r.finite) break;
+    if (widest() < meet || !r.finite) break;
     out.k *= growth;
     out.cap *= growth;
   }
