@@ -16,11 +16,11 @@ namespace {
 
 using namespace sewing;
 
-constexpr double gap_bar = 0.002;  // [m] partners must be at least this close before they are welded
+constexpr double gap_bar = 0.001;  // [m] partners must be at least this close before they are welded
 constexpr double near_by = 0.03;   // [m] partners that start closer than this are sewn first
 constexpr int sewing_rounds = 4;
 constexpr double strain_bar = 0.8;         // [-] jersey and rib bear nearly double their width; beyond, cloth would tear
-constexpr double penetration_bar = 0.002;  // [m]
+constexpr double penetration_bar = 0.0005;  // [m]
 
 std::string text(const char* format, double a, double b = 0) {
   char buffer[200];
@@ -95,7 +95,7 @@ class Tailor {
   /// straight edges make every tube narrower, gets another chance on the finer ones.
   bool sew() {
     const Pattern& p = pattern();
-    const double dx = mean_edge(p), meet = std::min(gap_bar, std::max(0.001, 0.1 * dx));
+    const double dx = mean_edge(p);
     const std::vector<double> start = gaps(p, x_);
     for (int round = 0; round < sewing_rounds; ++round) {
       std::vector<char> left_alone = weld_;
@@ -107,7 +107,7 @@ class Tailor {
       Cloth cloth = build_cloth(p, nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
       push_out(cloth, body_, o_.offset);
       Contact contact = contact_for(cloth, dx);
-      closing_ = close_seams(cloth, contact, p, nodes, left_alone, k_, dx, meet);
+      closing_ = close_seams(cloth, contact, p, nodes, left_alone, k_, dx, gap_bar);
       gap_met_ = std::max(gap_met_, closing_.gap_met);
       sewing_iterations_ += closing_.iterations;
       x_ = scatter(cloth, nodes);

@@ -53,7 +53,7 @@ struct Drape {
 /// rest on the body, coarse to fine. `placed` belongs to levels.front(); each later level starts from the one before.
 /// `levels` share the panels' frame; on each the seams that have met before are welded from the start. Deterministic.
 /// A garment that came out wrong is still returned, with its status; the gravest finding names it, in the order
-/// NOT_SUPPORTED (it slid off and kept falling), SEAM_OPEN, INSIDE_BODY (> 2 mm), OVERSTRETCHED (stretch_p99 > 80 %),
+/// NOT_SUPPORTED (it slid off and kept falling), SEAM_OPEN, INSIDE_BODY (> 0.5 mm), OVERSTRETCHED (stretch_p99 > 80 %),
 /// NOT_CONVERGED.
 /// Errors (64): FABRIC_TOO_SOFT (predicted weight strain > 100 %), FABRIC_VALUE (negative or non-finite k, m, ...),
 /// SEWING_OPTION; (65): PATTERN_LEVELS, PATTERN_PANELS, PATTERN_MESH, PATTERN_SEAM, PLACEMENT, NO_BODY, NOT_SUPPORTED
