@@ -7,7 +7,7 @@ namespace vitrine::sewing {
 
 struct Strains {
   double p99 = 0, most = 0;  ///< [-] of |length / rest - 1| over all mesh edges
-  double stretch_p99 = 0;    ///< [-] of length / rest - 1: folds squeeze a coarse mesh's edges, only stretch is a bad fit
+  double stretch_p99 = 0;  ///< [-] of length / rest - 1: folds squeeze a coarse mesh's edges, only stretch is a bad fit
 };
 Strains measure_strain(const Pattern& pattern, const Positions& positions);
 

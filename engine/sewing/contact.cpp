@@ -63,7 +63,7 @@ bool far_away(const Contact& c, std::size_t i, const Packed& x) {
 }  // namespace
 
 Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double edge_length, double load,
-                     double sheet_k) {
+                     double sheet_k, bool middles) {
   Contact c;
   c.field = &field;
   c.offset = offset;
@@ -78,7 +78,8 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
     c.samples.push_back(s);
   }
   // A chord of length h sags by h^2 / 8R towards a limb of radius R; where that leaves the skin clear, nodes will do.
-  if (edge_length * edge_length > 8 * thinnest_limb * sag_share * offset) {
+  c.middles = middles || edge_length * edge_length > 8 * thinnest_limb * sag_share * offset;
+  if (c.middles) {
     s.limit = middle_share * offset;
     s.count = 2;
     // Long edges are looked at in three places: a wrist is as thin as they are long.

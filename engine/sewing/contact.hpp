@@ -36,12 +36,14 @@ struct Contact {
   double travelled_before = 0, call_all = 0;
   Packed normal;             ///< [N] per node: the body's push on the node, from the last contact_forces()
   std::vector<int> touched;  ///< nodes with a push
+  bool middles = false;      ///< edges and triangles are looked at between their nodes, too
   double k_most = 0;         ///< [N/m] limit of the refresh
 };
 
-/// Samples for a cloth of the given edge length. `load` [N] is the push an ordinary node may have to bear.
+/// Samples for a cloth of the given edge length. `load` [N] is the push an ordinary node may have to bear; `middles`:
+/// look between the nodes although the edges are short.
 Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double edge_length, double load,
-                     double sheet_k);
+                     double sheet_k, bool middles = false);
 
 /// Adds the body's push to `force`, fills contact.normal and touched, returns the penalty energy [J]. `exact`: with the
 /// field itself everywhere, not its planes. `path` [m] per node: how far it has travelled since wake(); no node further

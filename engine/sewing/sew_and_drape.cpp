@@ -19,7 +19,7 @@ using namespace sewing;
 constexpr double gap_bar = 0.001;  // [m] partners must be at least this close before they are welded
 constexpr double near_by = 0.03;   // [m] partners that start closer than this are sewn first
 constexpr int sewing_rounds = 4;
-constexpr double strain_bar = 0.8;         // [-] jersey and rib bear nearly double their width; beyond, cloth would tear
+constexpr double strain_bar = 0.8;  // [-] jersey and rib bear nearly double their width; beyond, cloth would tear
 constexpr double penetration_bar = 0.0005;  // [m]
 
 std::string text(const char* format, double a, double b = 0) {
@@ -86,7 +86,7 @@ class Tailor {
 
   Contact contact_for(const Cloth& cloth, double dx) const {
     // A node's ordinary load: the column of cloth that hangs below it.
-    return make_contact(cloth, body_, o_.offset, dx, 2 * column_ * dx, k_);
+    return make_contact(cloth, body_, o_.offset, dx, 2 * column_ * dx, k_, middles_);
   }
 
   /// Draws the partners that are not sewn yet together and sews those that meet, in rounds: first the pairs that start
@@ -158,8 +158,18 @@ class Tailor {
       fallen_ = start - middle(cloth).y() > drop;
       return fallen_;
     };
-    const RelaxOutcome done = relax(cloth, &contact_, r);
+    RelaxOutcome done = relax(cloth, &contact_, r);
     x_ = scatter(cloth, nodes_);
+    if (last && done.finite && !fallen_ && !contact_.middles &&
+        measure_penetration(pattern(), x_, body_) > penetration_bar) {
+      // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
+      middles_ = true;
+      contact_ = contact_for(cloth, dx);
+      const int before_middles = done.iterations;
+      done = relax(cloth, &contact_, r);
+      done.iterations += before_middles;
+      x_ = scatter(cloth, nodes_);
+    }
     out_.energy = done.energy;
 
     LevelFigures f;
@@ -251,6 +261,12 @@ class Tailor {
     if (out_.stiffness_cap > 0)
       skipped.push_back(
           text("stiffness above %.4g N/m: the shape would move by less than a millimetre", out_.stiffness_cap));
+    if (contact_.middles)
+      modelled.push_back(middles_
+                             ? "contact of edges and triangles between their nodes: at first they cut into the body"
+                             : "contact of edges and triangles between their nodes: they are long");
+    else
+      skipped.push_back("contact of edges and triangles between their nodes: short enough to follow the body");
     skipped.push_back("motion: only the rest shape is computed");
     if (self.close == 0 && self.crossed == 0) {
       skipped.push_back("self-contact: the body parts front and back, and no two places of them touch");
@@ -281,6 +297,7 @@ class Tailor {
   Contact contact_;
   int level_ = 0, sewing_iterations_ = 0;
   bool fallen_ = false;
+  bool middles_ = false;  ///< contact between the nodes was found to matter
   Drape out_;
 };
 

@@ -77,8 +77,8 @@ TEST(RealPhotos, most_convert_within_the_bars_and_the_rest_say_why) {
       continue;
     }
     ++converted;
-    EXPECT_LE(d.seam_gap_mm_max, 3.0) << item.name;
-    EXPECT_LE(d.penetration_mm_max, 2.0) << item.name;
+    EXPECT_LE(d.seam_gap_mm_max, 1.0) << item.name;
+    EXPECT_LE(d.penetration_mm_max, 0.5) << item.name;
     EXPECT_LE(d.residual, 1e-2) << item.name;
     EXPECT_TRUE(finite(result.garment)) << item.name;
     const Surface surface = surface_of(result);
