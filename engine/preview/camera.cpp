@@ -8,8 +8,8 @@
 namespace vitrine {
 namespace {
 
-constexpr double kDistance = 3.6;                 // times the subject's size: a portrait lens
-constexpr double kLookDown = 0.20;                // eye above the middle, share of the size: shows the floor's shadow
+constexpr double kDistance = 3.6;   // times the subject's size: a portrait lens
+constexpr double kLookDown = 0.20;  // eye above the middle, share of the size: shows the floor's shadow
 constexpr double kMarginSide = 0.05, kMarginTop = 0.035, kMarginBottom = 0.06;  // shares of the frame
 
 }  // namespace

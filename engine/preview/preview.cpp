@@ -21,10 +21,10 @@ std::optional<Error> check_options(const PreviewOptions& o) {
   bool turns = !o.turns_deg.empty() && o.turns_deg.size() <= 16;
   for (double turn : o.turns_deg) turns = turns && std::isfinite(turn);
   if (size && rays && frame && turns) return std::nullopt;
-  return Error{
-      Cause::usage, "BAD_PREVIEW_OPTIONS", "The preview's size, views, rays or frame are out of range.",
-      "Use 16 to 8192 px, 1 to 16 views, 1 to 256 samples, 0 to 1024 occlusion rays and a frame whose top is above its bottom.",
-      "preview"};
+  return Error{Cause::usage, "BAD_PREVIEW_OPTIONS", "The preview's size, views, rays or frame are out of range.",
+               "Use 16 to 8192 px, 1 to 16 views, 1 to 256 samples, 0 to 1024 occlusion rays and a frame whose top is "
+               "above its bottom.",
+               "preview"};
 }
 
 std::optional<Error> check_mesh(const RenderMesh& m) {

@@ -16,7 +16,8 @@ std::string a_front() {
   return {};
 }
 
-Outcome convert(const std::string& front, const fs::path& out, const std::string& more = "--garment vest --mirror-back") {
+Outcome convert(const std::string& front, const fs::path& out,
+                const std::string& more = "--garment vest --mirror-back") {
   return run_vitrine("convert --quality draft --front '" + front + "' " + more + " --out '" + out.string() + "'");
 }
 

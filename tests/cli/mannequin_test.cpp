@@ -42,7 +42,8 @@ TEST(MannequinCommand, writes_mesh_picture_and_measurements_of_a_preset) {
     EXPECT_NEAR(row.at("measured").get<double>(), value.get<double>(), 2) << name;
     EXPECT_EQ(row.at("level"), row.at("point").at(1)) << name;
   }
-  for (const auto& entry : fs::directory_iterator(out)) EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(out))
+    EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos);
 }
 
 TEST(MannequinCommand, gives_the_same_bytes_twice_and_from_a_file) {

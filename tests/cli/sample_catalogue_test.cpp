@@ -30,10 +30,10 @@ std::map<std::string, std::string> files_of(const fs::path& out) {
 TEST(SampleCatalogue, converts_with_the_same_bytes_on_one_and_two_workers_and_valid_gltf) {
   const fs::path folder = scratch();
   const Outcome one = run_vitrine("-q catalog run '" + sample + "manifest.csv' --quality draft --jobs 1 --out '" +
-                          (folder / "one").string() + "'");
+                                  (folder / "one").string() + "'");
   ASSERT_EQ(one.exit_code, 0) << one.text;
   const Outcome two = run_vitrine("-q catalog run '" + sample + "manifest.csv' --quality draft --jobs 2 --out '" +
-                          (folder / "two").string() + "'");
+                                  (folder / "two").string() + "'");
   ASSERT_EQ(two.exit_code, 0) << two.text;
   const auto first = files_of(folder / "one"), second = files_of(folder / "two");
   ASSERT_EQ(first.size(), second.size());

@@ -2,6 +2,7 @@
 // Whole garments on a synthetic woman.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -185,6 +186,27 @@ TEST(Drape, a_garment_too_small_for_the_body_is_returned_with_a_status) {
   const Drape d = dress(o, {0.05});
   EXPECT_TRUE(finite(d));
   EXPECT_FALSE(d.detail.empty());
+}
+
+TEST(Drape, contact_between_nodes_is_turned_on_where_tight_cloth_cuts_into_the_body) {
+  // A cuff of eight edges around a limb of one and a half times its girth: stretched, an edge's middle sags by more
+  // than the offset.
+  const DistanceField limb = scene::make_field({-0.2, -0.3, -0.2}, {0.2, 0.3, 0.2}, 0.005,
+                                               [](const Vec3& p) { return std::hypot(p.x(), p.z()) - 0.035; });
+  const auto straight = [](const Vec2& a, const Vec2& b, int seam) {
+    return scene::Outline::Edge{a, a + (b - a) / 3, b - (b - a) / 3, b, seam};
+  };
+  const Vec2 a(-0.04, -0.05), b(0.04, -0.05), c(0.04, 0.05), d(-0.04, 0.05);
+  scene::Outline cuff;
+  cuff.edges = {straight(a, b, -1), straight(b, c, 0), straight(c, d, -1), straight(d, a, 1)};
+  const std::vector<Pattern> levels{scene::make_pattern(cuff, 0.0205)};
+  const Drape drape =
+      must(sew_and_drape(levels, scene::place_flat(levels.front(), 0.06), scene::cotton(), limb, SewingOptions{}));
+  EXPECT_EQ(drape.status, "OK") << drape.detail;
+  EXPECT_LT(drape.penetration_mm_max, 0.5);
+  EXPECT_TRUE(std::any_of(drape.modelled.begin(), drape.modelled.end(), [](const std::string& effect) {
+    return effect.find("at first they cut into the body") != std::string::npos;
+  }));
 }
 
 TEST(Drape, a_small_budget_ends_not_converged_with_the_residual) {

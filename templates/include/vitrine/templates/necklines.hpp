@@ -3,8 +3,8 @@
 // The three necklines of the paper (III.A), each a curve over the neck edge: s along the edge, depth towards the hem.
 //
 // The ratio ranges follow from the curves. In the box under the neck edge a V leaves as much foreground as background
-// (ratio 1), a square neck none (0), a half ellipse (1 - pi/4) / (pi/4) = 0.27. The limits lie between; sewn square necks have round corners and leaning sides,
-// which bring them to 0.1 to 0.25.
+// (ratio 1), a square neck none (0), a half ellipse (1 - pi/4) / (pi/4) = 0.27. The limits lie between; sewn square
+// necks have round corners and leaning sides, which bring them to 0.1 to 0.25.
 #include <array>
 
 #include "vitrine/plugin.hpp"
