@@ -15,6 +15,11 @@ void enter_flat_rooms(Rooms& rooms) {
   rooms.enter("mesh", [&] { return rooms.mesh_levels(); });
 }
 
+void enter_sewing_rooms(Rooms& rooms) {
+  rooms.enter("fit", [&] { return rooms.place(); });
+  rooms.enter("sewing", [&] { return rooms.sew(); });
+}
+
 }  // namespace
 
 Conversion cut_and_mesh(const ConvertRequest& request) {
@@ -24,13 +29,21 @@ Conversion cut_and_mesh(const ConvertRequest& request) {
   return item;
 }
 
+Conversion cut_and_sew(const ConvertRequest& request) {
+  Conversion item;
+  Rooms rooms(request, item);
+  enter_flat_rooms(rooms);
+  enter_sewing_rooms(rooms);
+  rooms.enter("sewing", [&] { return rooms.judge_drape(); });
+  return item;
+}
+
 /// The mannequin room is not on this list: its body and voxels are made once and shared by every item (request.body).
 Conversion convert(const ConvertRequest& request) {
   Conversion item;
   Rooms rooms(request, item);
   enter_flat_rooms(rooms);
-  rooms.enter("fit", [&] { return rooms.place(); });
-  rooms.enter("sewing", [&] { return rooms.sew(); });
+  enter_sewing_rooms(rooms);
   rooms.enter("texture", [&] { return rooms.texture(); });
   rooms.enter("export", [&] { return rooms.write_glb(); });
   rooms.enter("preview", [&] { return rooms.take_pictures(); });

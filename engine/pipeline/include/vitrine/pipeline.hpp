@@ -116,6 +116,9 @@ Conversion convert(const ConvertRequest& request);
 /// The rooms as far as the mesh: the pattern as it lies on the table, nothing placed or sewn.
 Conversion cut_and_mesh(const ConvertRequest& request);
 
+/// The rooms as far as the cloth at rest: no texture, files or pictures.
+Conversion cut_and_sew(const ConvertRequest& request);
+
 /// report.json: status, reason, features in pixels of the photos as given, mesh and drape figures, milliseconds per
 /// room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
