@@ -46,7 +46,8 @@ std::vector<Item> sample_photos() {
                           "long_sleeve long-sleeve-mustard", "skirt skirt-garden", "skirt skirt-denim"}) {
     const std::string text = row;
     const auto space = text.find(' ');
-    const std::string name = text.substr(space + 1), photo = std::string(VITRINE_SOURCE_DIR) + "/catalog/sample/" + name;
+    const std::string name = text.substr(space + 1),
+                      photo = std::string(VITRINE_SOURCE_DIR) + "/catalog/sample/" + name;
     items.push_back({name, text.substr(0, space), photo + "-front.jpg", photo + "-back.jpg"});
   }
   return items;
@@ -114,7 +115,7 @@ int main(int argc, char** argv) {
   std::ofstream out;
   if (!csv.empty()) out.open(csv);
   out << "item,garment,fabric,mannequin,verdict,residual,gap_mm,penetration_mm,stretch_p99,strain_max,nodes,steps,"
-         "change_mean_mm,sewing_s\n";
+         "change_mean_mm,self_touching,self_crossed,self_crossed_mm,sewing_s\n";
   std::map<std::string, Tally> by_garment, by_body;
   Tally all;
   try {
@@ -152,10 +153,11 @@ int main(int argc, char** argv) {
           int steps = 0;
           for (const LevelFigures& l : d.levels) steps += l.iterations;
           char row[400];
-          std::snprintf(row, sizeof row, "%s,%s,%s,%s,%s,%.2e,%.2f,%.3f,%.3f,%.2f,%d,%d,%.2f,%.3f\n", item.name.c_str(),
+          std::snprintf(row, sizeof row, "%s,%s,%s,%s,%s,%.2e,%.2f,%.3f,%.3f,%.2f,%d,%d,%.2f,%d,%d,%.1f,%.3f\n", item.name.c_str(),
                         item.garment.c_str(), fabric.name.c_str(), body_name.c_str(), judged.c_str(), d.residual,
                         d.seam_gap_mm_max, d.penetration_mm_max, d.stretch_p99, d.strain_max, last.nodes, steps,
-                        last.change_mean_mm, seconds);
+                        last.change_mean_mm, d.self_touching, d.self_crossed,
+                        d.self_crossed_mm_max, seconds);
           out << row;
           if (judged != "OK") std::printf("%s", row);
           std::fflush(stdout);

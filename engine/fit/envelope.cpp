@@ -41,12 +41,16 @@ Envelope::Envelope(const DistanceField& field, int direction, double cell, doubl
   for (int iy = 0; iy < rows_; ++iy)
     for (int ix = 0; ix < columns_; ++ix) {
       const double x = origin_.x() + ix * cell, y = origin_.y() + iy * cell;
-      for (int k = 0; k < field.size[2]; ++k) {
+      for (int k = 0; k < field.size[2];) {
         const int iz = direction > 0 ? field.size[2] - 1 - k : k;
         const double z = field.origin.z() + iz * field.spacing;
-        if (field.distance(Vec3(x, y, z)) > 0) continue;
-        height_[static_cast<std::size_t>(iy) * columns_ + ix] = direction * z;
-        break;
+        const double free = field.distance(Vec3(x, y, z));
+        if (free <= 0) {
+          height_[static_cast<std::size_t>(iy) * columns_ + ix] = direction * z;
+          break;
+        }
+        // No surface is nearer than the distance, save what interpolation rounds off.
+        k += std::max(1, static_cast<int>(free / field.spacing) - 1);
       }
     }
   const int radius = std::max(1, static_cast<int>(std::lround(reach / cell)));

@@ -12,8 +12,8 @@ namespace {
 constexpr double lipschitz = 1.2;     // trilinear interpolation of a distance may be a little steeper than 1
 constexpr double middle_share = 0.5;  // middles of edges may sink to half the offset: chords cut curves, cloth does not
 
-constexpr double sag_share = 0.75;       // of the offset
-constexpr double thinnest_limb = 0.025;  // [m] radius: a wrist
+constexpr double sag_that_matters = 0.375;  // of the offset: with a margin for the way the cloth still has to go
+constexpr double limb_turn = 1;             // [rad] along an edge
 // All samples are called every so many steps of the present length; those further away sleep until then.
 constexpr double steps_asleep = 30, shortest_nap = 5e-5, longest_nap = 3e-3;  // [m]
 constexpr double plane_reach = 2e-4;  // [m] around a look, where the field passes for a plane
@@ -60,10 +60,52 @@ bool far_away(const Contact& c, std::size_t i, const Packed& x) {
   return (s.known && sleeps <= 0 ? s.gap : c.field->distance(where(s, x)) - s.limit) > far;
 }
 
+/// Unit ways out of the body at the cloth's nodes.
+std::vector<Vec3> ways_out(const Cloth& cloth, const DistanceField& field) {
+  std::vector<Vec3> way(cloth.size);
+  for (int n = 0; n < cloth.size; ++n) {
+    field.distance(cloth.at(n), way[n]);
+    way[n] /= std::max(way[n].norm(), 1e-9);
+  }
+  return way;
+}
+
+/// Samples between the nodes: of every edge and triangle, or of those the body curves under. `s` is an ordinary node's.
+void add_middles(Contact& c, const Cloth& cloth, ContactSample s) {
+  const bool all = c.middles == Middles::all;
+  const std::vector<Vec3> way = ways_out(cloth, *c.field);
+  // A chord over which the surface turns by an angle sags by length * angle / 8.
+  const auto turn = [&](int a, int b) { return std::acos(std::clamp(way[a].dot(way[b]), -1.0, 1.0)); };
+  const auto bridges = [&](int a, int b) {
+    return all || (cloth.at(a) - cloth.at(b)).norm() * turn(a, b) / 8 > sag_that_matters * c.offset;
+  };
+  s.limit = middle_share * c.offset;
+  s.count = 2;
+  for (std::size_t e = 0; e < cloth.edge_k.size(); ++e) {
+    const int a = s.node[0] = cloth.edge_a[e], b = s.node[1] = cloth.edge_b[e];
+    if (!bridges(a, b)) continue;
+    // Long edges are looked at in three places where they lie on a limb, which may be as thin as they are long.
+    const bool is_long = cloth.edge_rest[e] > 6 * c.field->spacing;
+    const int places = is_long && (all || turn(a, b) > limb_turn) ? 3 : 1;
+    for (int i = 1; i <= places; ++i) {
+      s.share[1] = static_cast<double>(i) / (places + 1);
+      s.share[0] = 1 - s.share[1];
+      c.samples.push_back(s);
+    }
+  }
+  s.count = 3;
+  std::fill(s.share, s.share + 3, 1.0 / 3);
+  for (const auto& t : cloth.triangles) {
+    if (!bridges(t[0], t[1]) && !bridges(t[1], t[2]) && !bridges(t[2], t[0])) continue;
+    std::copy(t.begin(), t.end(), s.node);
+    c.samples.push_back(s);
+  }
+}
+
 }  // namespace
 
-Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double edge_length, double load,
-                     double sheet_k, bool middles) {
+Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double load, double sheet_k,
+                     Middles middles) {
   Contact c;
   c.field = &field;
   c.offset = offset;
@@ -77,28 +119,8 @@ Contact make_contact(const Cloth& cloth, const DistanceField& field, double offs
     s.node[0] = n;
     c.samples.push_back(s);
   }
-  // A chord of length h sags by h^2 / 8R towards a limb of radius R; where that leaves the skin clear, nodes will do.
-  c.middles = middles || edge_length * edge_length > 8 * thinnest_limb * sag_share * offset;
-  if (c.middles) {
-    s.limit = middle_share * offset;
-    s.count = 2;
-    // Long edges are looked at in three places: a wrist is as thin as they are long.
-    const int places = edge_length > 6 * field.spacing ? 3 : 1;
-    for (std::size_t e = 0; e < cloth.edge_k.size(); ++e)
-      for (int i = 1; i <= places; ++i) {
-        s.node[0] = cloth.edge_a[e];
-        s.node[1] = cloth.edge_b[e];
-        s.share[1] = static_cast<double>(i) / (places + 1);
-        s.share[0] = 1 - s.share[1];
-        c.samples.push_back(s);
-      }
-    s.count = 3;
-    std::fill(s.share, s.share + 3, 1.0 / 3);
-    for (const auto& t : cloth.triangles) {
-      std::copy(t.begin(), t.end(), s.node);
-      c.samples.push_back(s);
-    }
-  }
+  c.middles = middles;
+  add_middles(c, cloth, s);
   c.asleep_until.assign(c.samples.size(), 0.0);
   return c;
 }

@@ -11,17 +11,24 @@ namespace vitrine::sewing {
 /// A place of the cloth that must stay outside the body: a node, or the middle of an edge or triangle where the mesh is
 /// coarser than the voxels.
 struct ContactSample {
+  // What most looks need stands first, in one line of the cache.
   int node[3] = {0, 0, 0};
-  int count = 1;                ///< nodes that carry it
-  double share[3] = {1, 0, 0};  ///< [-] barycentric place
-  double k = 0;                 ///< [N/m] penalty
-  double limit = 0;             ///< [m] pushed out below this distance
-  // What the last look at the field saw: the body's surface there as a plane, good for a hair's breadth around.
-  bool known = false;
+  int count = 1;         ///< nodes that carry it
   double gap = 0;        ///< [m] distance - limit at the last look, or by the plane since
   double seen_path = 0;  ///< [m] of the sample at the last look
   double seen_gap = 0;   ///< [m] at `seen`
+  double k = 0;          ///< [N/m] penalty
+  double limit = 0;      ///< [m] pushed out below this distance
+  bool known = false;
+  double share[3] = {1, 0, 0};  ///< [-] barycentric place
+  /// What the last look at the field saw: the body's surface there as a plane, good for a hair's breadth around.
   Vec3 seen = Vec3::Zero(), slope = Vec3::Zero();
+};
+
+/// Where contact is looked for besides at the nodes.
+enum class Middles {
+  where_needed,  ///< edges and triangles that the body's curve may reach between their nodes
+  all
 };
 
 /// Penalty contact against the voxel body (cloth held `offset` above the skin).
@@ -36,14 +43,13 @@ struct Contact {
   double travelled_before = 0, call_all = 0;
   Packed normal;             ///< [N] per node: the body's push on the node, from the last contact_forces()
   std::vector<int> touched;  ///< nodes with a push
-  bool middles = false;      ///< edges and triangles are looked at between their nodes, too
-  double k_most = 0;         ///< [N/m] limit of the refresh
+  Middles middles = Middles::where_needed;
+  double k_most = 0;  ///< [N/m] limit of the refresh
 };
 
-/// Samples for a cloth of the given edge length. `load` [N] is the push an ordinary node may have to bear; `middles`:
-/// look between the nodes although the edges are short.
-Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double edge_length, double load,
-                     double sheet_k, bool middles = false);
+/// Samples for a cloth. `load` [N] is the push an ordinary node may have to bear.
+Contact make_contact(const Cloth& cloth, const DistanceField& field, double offset, double load, double sheet_k,
+                     Middles middles = Middles::where_needed);
 
 /// Adds the body's push to `force`, fills contact.normal and touched, returns the penalty energy [J]. `exact`: with the
 /// field itself everywhere, not its planes. `path` [m] per node: how far it has travelled since wake(); no node further

@@ -134,10 +134,11 @@ class Fire {
         out.finite = false;
         return out;
       }
+      raised_ = false;
       const bool there = exact && residual <= o_.residual;
       if (look || there) {
-        const bool raised = contact_ && refresh_contact(*contact_);
-        if (!raised && there) {
+        raised_ = contact_ && refresh_contact(*contact_);
+        if (!raised_ && there) {
           out.converged = true;
           return out;
         }
@@ -148,13 +149,13 @@ class Fire {
             return out;
           }
         }
-        if (raised || it % 100 == 0) {
+        if (raised_ || it % 100 == 0) {
           update_masses();
           ceiling_known_ = false;
         }
       }
       if (it >= o_.max_iterations) return out;
-      watch(energy);
+      if (ceiling_known_ || !raised_) watch(energy);
       release(it);
       advance();
       exact = residual <= 1.2 * o_.residual;
@@ -255,7 +256,8 @@ class Fire {
   /// too long.
   void watch(double energy) {
     if (!ceiling_known_) {
-      ceiling_ = energy;
+      // What is in motion now may turn back into energy.
+      ceiling_ = energy + 0.5 * vv_;
       lowest_ = energy;
       ceiling_known_ = true;
       return;
@@ -337,6 +339,7 @@ class Fire {
   double dt_ = dt_start, dt_cap_ = dt_most, dt_long_ = dt_most, alpha_ = alpha_start;
   double power_ = 0, vv_ = 0;
   double ceiling_ = 0, lowest_ = 0, energy_grain_ = 0;
+  bool raised_ = false;  ///< the contact's penalty in this step: the energy in hand is not what the next step sees
   bool ceiling_known_ = false, lattice_old_ = true;
   int uphill_free_ = 0, calm_ = 0;
 };

@@ -10,10 +10,10 @@ namespace {
 
 // The pull starts gentle, so that panels travel as a whole before their borders stretch, and doubles until they meet.
 constexpr int stages = 8, stage_iterations = 600;
-constexpr int stall = 60;              // iterations without a tenth of the gap gained
-constexpr double first_strain = 0.02;  // the force limit of the first stage, as a strain of the cloth at the seam
-constexpr double growth = 2.2;         // far past what cloth bears: a seam that stays open is not a matter of strength,
-                                       // and one that closes at such a strain is found overstretched afterwards
+constexpr int stall = 30;             // iterations without a tenth of the gap gained
+constexpr double first_strain = 0.1;  // the force limit of the first stage, as a strain of the cloth at the seam
+constexpr double growth = 2.2;        // far past what cloth bears: a seam that stays open is not a matter of strength,
+                                      // and one that closes at such a strain is found overstretched afterwards
 
 }  // namespace
 

@@ -84,9 +84,9 @@ class Tailor {
  private:
   const Pattern& pattern() const { return levels_[level_]; }
 
-  Contact contact_for(const Cloth& cloth, double dx) const {
+  Contact contact_for(const Cloth& cloth, double dx, Middles middles = Middles::where_needed) const {
     // A node's ordinary load: the column of cloth that hangs below it.
-    return make_contact(cloth, body_, o_.offset, dx, 2 * column_ * dx, k_, middles_);
+    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_, middles_ ? Middles::all : middles);
   }
 
   /// Draws the partners that are not sewn yet together and sews those that meet, in rounds: first the pairs that start
@@ -160,8 +160,7 @@ class Tailor {
     };
     RelaxOutcome done = relax(cloth, &contact_, r);
     x_ = scatter(cloth, nodes_);
-    if (last && done.finite && !fallen_ && !contact_.middles &&
-        measure_penetration(pattern(), x_, body_) > penetration_bar) {
+    if (last && done.finite && !fallen_ && measure_penetration(pattern(), x_, body_) > penetration_bar) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;
       contact_ = contact_for(cloth, dx);
@@ -212,7 +211,11 @@ class Tailor {
     out_.welded = nodes_;
     out_.positions = x_;
     judge();
-    list_effects(detect_self_contact(pattern(), nodes_, x_));
+    const SelfContact self = detect_self_contact(pattern(), nodes_, x_);
+    out_.self_touching = self.close;
+    out_.self_crossed = self.crossed;
+    out_.self_crossed_mm_max = 1000 * self.depth;
+    list_effects(self);
     return std::move(out_);
   }
 
@@ -261,7 +264,7 @@ class Tailor {
     if (out_.stiffness_cap > 0)
       skipped.push_back(
           text("stiffness above %.4g N/m: the shape would move by less than a millimetre", out_.stiffness_cap));
-    if (contact_.middles)
+    if (contact_.samples.size() > 0)
       modelled.push_back(middles_
                              ? "contact of edges and triangles between their nodes: at first they cut into the body"
                              : "contact of edges and triangles between their nodes: they are long");

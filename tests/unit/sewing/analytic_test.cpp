@@ -223,7 +223,7 @@ double slide(double angle, double mu, bool& converged) {
     for (int a = 0; a < 3; ++a) c.x[3 * n + a] = p[a];
   }
   const double start = c.x[0];
-  Contact contact = make_contact(c, slope, 0.004, 0.02, 1e-3, 1000);
+  Contact contact = make_contact(c, slope, 0.004, 1e-3, 1000);
   RelaxOptions o = to(1e-4, mu);
   o.max_iterations = 12'000;
   converged = relax(c, &contact, o).converged;

@@ -43,6 +43,8 @@ struct Drape {
   double strain_p99 = 0;          ///< [-] 99th percentile of |edge length / rest - 1|
   double stretch_p99 = 0;         ///< [-] 99th percentile of edge length / rest - 1: what decides OVERSTRETCHED
   double strain_max = 0;
+  int self_touching = 0, self_crossed = 0;  ///< places where front and back lie on each other; have passed through
+  double self_crossed_mm_max = 0;           ///< how far
   double stiffness_cap = 0;  ///< [N/m] effective limit of k; 0 = not capped
   double energy = 0;         ///< [J]
   std::vector<LevelFigures> levels;
