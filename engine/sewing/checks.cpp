@@ -5,11 +5,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <numeric>
 
 namespace vitrine::sewing {
 namespace {
 
 constexpr std::size_t most_nodes = 1'000'000, most_levels = 16;
+constexpr double most_seam_ratio = 3;  // [-] more cannot be eased in: the points at the seam's ends are wrong
 
 Error usage(std::string code, std::string message, std::string remedy) {
   return {Cause::usage, std::move(code), std::move(message), std::move(remedy), "sewing"};
@@ -17,6 +20,10 @@ Error usage(std::string code, std::string message, std::string remedy) {
 
 Error unusable(std::string code, std::string message, std::string remedy) {
   return {Cause::unusable, std::move(code), std::move(message), std::move(remedy), "sewing"};
+}
+
+std::string millimetres(double metres) {
+  return std::to_string(std::lround(1e3 * metres)) + " mm";
 }
 
 std::string number(double v) {
@@ -42,6 +49,10 @@ std::optional<Error> check_fabric(const Fabric& f) {
 }
 
 std::optional<Error> check_options(const SewingOptions& o) {
+  for (const auto& [name, value] : {std::pair{"spring_k", o.spring_k}, std::pair{"node_mass", o.node_mass}})
+    if (!std::isfinite(value) || value < 0 || value > 1e12)
+      return usage("SEWING_OPTION", std::string("sewing option ") + name + " is " + number(value) + ".",
+                   "Give k in N/m and m in kg, or 0 for the fabric's own.");
   const std::pair<const char*, double> positive[] = {
       {"residual", o.residual}, {"coarse_residual", o.coarse_residual}, {"offset", o.offset}};
   for (const auto& [name, value] : positive)
@@ -59,6 +70,15 @@ std::optional<Error> check_options(const SewingOptions& o) {
   return std::nullopt;
 }
 
+double area_of(const PanelMesh& m) {
+  double area = 0;
+  for (const Triangle& t : m.triangles) {
+    const Vec2 u = m.nodes[t[1]] - m.nodes[t[0]], w = m.nodes[t[2]] - m.nodes[t[0]];
+    area += 0.5 * std::abs(u.x() * w.y() - u.y() * w.x());
+  }
+  return area;
+}
+
 std::optional<Error> check_pattern(const Pattern& p, std::size_t level) {
   const std::string where = "level " + std::to_string(level) + ": ";
   const std::string remedy = "Make the pattern again from the photos.";
@@ -73,15 +93,11 @@ std::optional<Error> check_pattern(const Pattern& p, std::size_t level) {
     for (const Vec2& n : m.nodes)
       if (!n.allFinite() || n.cwiseAbs().maxCoeff() > 100)
         return unusable("PATTERN_MESH", where + "a panel node is not a place within 100 m.", remedy);
-    double area = 0;
-    for (const Triangle& t : m.triangles) {
+    for (const Triangle& t : m.triangles)
       for (const auto i : t)
         if (i >= m.nodes.size())
           return unusable("PATTERN_MESH", where + "a triangle names a node that is not there.", remedy);
-      const Vec2 u = m.nodes[t[1]] - m.nodes[t[0]], w = m.nodes[t[2]] - m.nodes[t[0]];
-      area += 0.5 * std::abs(u.x() * w.y() - u.y() * w.x());
-    }
-    if (area < 1e-8) return unusable("PATTERN_MESH", where + "a panel has no area.", remedy);
+    if (area_of(m) < 1e-8) return unusable("PATTERN_MESH", where + "a panel has no area.", remedy);
   }
   if (total > most_nodes)
     return unusable("PATTERN_MESH", where + std::to_string(total) + " nodes are more than the sewing takes.",
@@ -90,6 +106,76 @@ std::optional<Error> check_pattern(const Pattern& p, std::size_t level) {
     for (const auto& [panel, node] : {std::pair{q.panel_a, q.node_a}, std::pair{q.panel_b, q.node_b}})
       if (panel < 0 || panel > 1 || node < 0 || static_cast<std::size_t>(node) >= p.meshes[panel].nodes.size())
         return unusable("PATTERN_SEAM", where + "a seam names a node that is not there.", remedy);
+  return std::nullopt;
+}
+
+/// A piece that no seam joins to the rest would fall for ever.
+std::optional<Error> check_pieces(const Pattern& p, std::size_t level) {
+  std::vector<std::size_t> base{0};
+  for (const PanelMesh& m : p.meshes) base.push_back(base.back() + m.nodes.size());
+  std::vector<std::size_t> parent(base.back());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::vector<char> in_use(parent.size(), 0);
+  for (std::size_t panel = 0; panel < p.meshes.size(); ++panel)
+    for (const Triangle& t : p.meshes[panel].triangles)
+      for (const auto i : t) {
+        in_use[base[panel] + i] = 1;
+        parent[root(base[panel] + i)] = root(base[panel] + t[0]);
+      }
+  for (const NodePair& q : p.pairs) parent[root(base[q.panel_a] + q.node_a)] = root(base[q.panel_b] + q.node_b);
+  std::vector<std::size_t> size(parent.size(), 0);
+  for (std::size_t i = 0; i < parent.size(); ++i)
+    if (in_use[i]) ++size[root(i)];
+  const auto pieces = std::count_if(size.begin(), size.end(), [](std::size_t n) { return n > 0; });
+  if (pieces == 1) return std::nullopt;
+  const auto largest = std::max_element(size.begin(), size.end());
+  for (std::size_t i = 0; i < size.size(); ++i)
+    if (size[i] > 0 && i != static_cast<std::size_t>(largest - size.begin())) {
+      const std::size_t panel = i < base[1] ? 0 : 1;
+      return unusable("PATTERN_PIECES",
+                      "level " + std::to_string(level) + ": a piece of " + std::to_string(size[i]) + " nodes in the " +
+                          (panel == 0 ? "front" : "back") + " panel is sewn to nothing and would fall.",
+                      "Add the seam that joins it, or leave it out.");
+    }
+  return std::nullopt;
+}
+
+/// Seams that are sewn the wrong way round, or join edges of lengths that do not belong together.
+std::optional<Error> check_seams(const Pattern& p, std::size_t level, const Positions* placed) {
+  struct Seam {
+    double length_a = 0, length_b = 0;
+    int steps = 0, crossed = 0;
+  };
+  std::map<int, Seam> seams;
+  for (std::size_t i = 1; i < p.pairs.size(); ++i) {
+    const NodePair &r = p.pairs[i - 1], &q = p.pairs[i];
+    if (q.seam != r.seam || q.panel_a != r.panel_a || q.panel_b != r.panel_b) continue;
+    Seam& s = seams[q.seam];
+    s.length_a += (p.meshes[q.panel_a].nodes[q.node_a] - p.meshes[r.panel_a].nodes[r.node_a]).norm();
+    s.length_b += (p.meshes[q.panel_b].nodes[q.node_b] - p.meshes[r.panel_b].nodes[r.node_b]).norm();
+    if (!placed) continue;
+    const auto at = [&](int panel, int node) { return (*placed)[panel][node]; };
+    const Vec3 a0 = at(r.panel_a, r.node_a), a1 = at(q.panel_a, q.node_a);
+    const Vec3 b0 = at(r.panel_b, r.node_b), b1 = at(q.panel_b, q.node_b);
+    ++s.steps;
+    s.crossed += (a0 - b1).norm() + (a1 - b0).norm() < (a0 - b0).norm() + (a1 - b1).norm() - 1e-9;
+  }
+  for (const auto& [number, s] : seams) {
+    const std::string where = "level " + std::to_string(level) + ": seam " + std::to_string(number) + " ";
+    const double longer = std::max(s.length_a, s.length_b), shorter = std::min(s.length_a, s.length_b);
+    if (longer > most_seam_ratio * shorter)
+      return unusable(
+          "PATTERN_SEAM",
+          where + "joins an edge of " + millimetres(s.length_a) + " to one of " + millimetres(s.length_b) + ".",
+          "Check the feature points at its ends.");
+    if (s.steps >= 3 && 2 * s.crossed > s.steps)
+      return unusable("PATTERN_SEAM", where + "joins two edges that run against each other: the panels would twist.",
+                      "Flip the seam: set `reversed` in the garment's seam map, or take it out.");
+  }
   return std::nullopt;
 }
 
@@ -107,6 +193,14 @@ std::optional<Error> check_body(const DistanceField& b, const Positions& placed)
   if (odd)
     return unusable("NO_BODY", "the body's distance field holds a value that is not a number.",
                     "Use a closed mannequin mesh.");
+  const auto corner = [&](int k) {
+    const std::size_t x = k & 1 ? b.size[0] - 1 : 0, y = k & 2 ? b.size[1] - 1 : 0, z = k & 4 ? b.size[2] - 1 : 0;
+    return b.values[(z * b.size[1] + y) * b.size[0] + x];
+  };
+  for (int k = 0; k < 8; ++k)
+    if (corner(k) <= 0)
+      return unusable("NO_BODY", "the body's distance field is inside out, or the body fills it to a corner.",
+                      "Voxelise a closed mannequin whose normals point outwards.");
   Vec3 lo = placed.front().front(), hi = lo;
   for (const auto& panel : placed)
     for (const Vec3& p : panel) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
@@ -120,6 +214,20 @@ std::optional<Error> check_body(const DistanceField& b, const Positions& placed)
 
 }  // namespace
 
+Fabric as_sheet(const Pattern& pattern, Fabric fabric, const SewingOptions& options) {
+  // On an equilateral mesh an edge has a share of L^2 sqrt(3)/2 of the area, so that k = K sqrt(3)/2.
+  if (options.spring_k > 0) fabric.stretch = fabric.shear = options.spring_k * 2 / std::sqrt(3.0);
+  if (options.node_mass > 0) {
+    double area = 0, nodes = 0;
+    for (const PanelMesh& m : pattern.meshes) {
+      nodes += static_cast<double>(m.nodes.size());
+      area += area_of(m);
+    }
+    fabric.mass = options.node_mass * nodes / area;
+  }
+  return fabric;
+}
+
 double column_weight(const Pattern& pattern, const Fabric& fabric, double gravity) {
   double most = 0;
   for (const PanelMesh& m : pattern.meshes) {
@@ -130,13 +238,13 @@ double column_weight(const Pattern& pattern, const Fabric& fabric, double gravit
   return fabric.mass * gravity * most;
 }
 
-std::optional<Error> check_input(std::span<const Pattern> levels, const Positions& placed, const Fabric& fabric,
+std::optional<Error> check_input(std::span<const Pattern> levels, const Positions& placed, const Fabric& given,
                                  const DistanceField& body, const SewingOptions& options) {
   if (levels.empty() || levels.size() > most_levels)
     return unusable("PATTERN_LEVELS", std::to_string(levels.size()) + " pattern levels cannot be sewn.",
                     "Give between 1 and 16 levels.");
   if (auto e = check_options(options)) return e;
-  if (auto e = check_fabric(fabric)) return e;
+  if (auto e = check_fabric(given)) return e;
   for (std::size_t l = 0; l < levels.size(); ++l)
     if (auto e = check_pattern(levels[l], l)) return e;
   bool fits = placed.size() == 2;
@@ -148,7 +256,12 @@ std::optional<Error> check_input(std::span<const Pattern> levels, const Position
     for (const Vec3& p : panel)
       if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1000)
         return unusable("PLACEMENT", "a placed node is not a place within 1 km.", "Place the panels again.");
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    if (auto e = check_pieces(levels[l], l)) return e;
+    if (auto e = check_seams(levels[l], l, l == 0 ? &placed : nullptr)) return e;
+  }
   if (auto e = check_body(body, placed)) return e;
+  const Fabric fabric = as_sheet(levels.back(), given, options);
   const double column = column_weight(levels.back(), fabric, options.gravity);
   const double strain = column / std::max(fabric.stretch, 1e-300);
   if (strain > 1)

@@ -12,6 +12,10 @@ namespace vitrine::sewing {
 std::optional<Error> check_input(std::span<const Pattern> levels, const Positions& placed, const Fabric& fabric,
                                  const DistanceField& body, const SewingOptions& options);
 
+/// The fabric, with the options' spring_k and node_mass as what they come to on this mesh as a sheet (exact where it is
+/// equilateral).
+Fabric as_sheet(const Pattern& pattern, Fabric fabric, const SewingOptions& options);
+
 /// Weight of the longest column of cloth per width [N/m]: divided by K it is the strain of the cloth under itself.
 double column_weight(const Pattern& pattern, const Fabric& fabric, double gravity);
 

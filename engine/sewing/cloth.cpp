@@ -97,6 +97,15 @@ void sum_masses(Cloth& c, const Pattern& pattern, const Nodes& nodes, double den
   }
 }
 
+/// What residuals are divided by.
+void weigh(Cloth& c) {
+  double springs = 0;
+  for (std::size_t e = 0; e < c.edge_k.size(); ++e) springs += c.edge_k[e] * c.edge_rest[e];
+  c.weight = 0;
+  for (const double m : c.mass) c.weight += m * c.gravity;
+  c.scale = std::max(c.weight, 1e-6 * springs);
+}
+
 }  // namespace
 
 Nodes number_nodes(const Pattern& pattern, std::span<const char> weld, int& count) {
@@ -192,11 +201,14 @@ Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const P
       for (std::size_t j = i; j + 1 < end; ++j) add_hinge(c, halves[j], halves[j + 1], sheet.bend);
     i = end;
   }
-  double springs = 0;
-  for (std::size_t e = 0; e < c.edge_k.size(); ++e) springs += c.edge_k[e] * c.edge_rest[e];
-  for (int n = 0; n < count; ++n) c.weight += c.mass[n] * gravity;
-  c.scale = std::max(c.weight, 1e-6 * springs);
+  weigh(c);
   return c;
+}
+
+void set_raw_constants(Cloth& c, double k, double m) {
+  if (k > 0) std::fill(c.edge_k.begin(), c.edge_k.end(), k);
+  if (m > 0) std::fill(c.mass.begin(), c.mass.end(), m);
+  weigh(c);
 }
 
 double internal_forces(const Cloth& c, const std::vector<double>& x, std::vector<double>& force) {

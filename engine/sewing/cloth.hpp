@@ -61,6 +61,10 @@ Nodes number_nodes(const Pattern& pattern, std::span<const char> weld, int& coun
 Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const Positions& start,
                   const SheetStiffness& sheet, double density, double gravity, bool bending);
 
+/// Gives every spring the stiffness `k` [N/m] and every node the mass `m` [kg], as in the paper's eq. (2); 0 leaves
+/// what build_cloth() spread.
+void set_raw_constants(Cloth& cloth, double k, double m);
+
 /// Adds the forces of springs, hinges, gravity and seams [N] to `force` (3 per node) and returns the energy [J].
 double internal_forces(const Cloth& cloth, const std::vector<double>& x, std::vector<double>& force);
 

@@ -95,8 +95,14 @@ VITRINE_WIDE double move(double dt, const double* v, std::size_t nodes, double* 
 
 class Fire {
  public:
-  Fire(Cloth& cloth, Contact* contact, const RelaxOptions& options)
-      : c_(cloth), contact_(contact), o_(options), springs_(cloth), coarse_(cloth), nodes_(packed_nodes(cloth.size)) {
+  Fire(Cloth& cloth, Contact* contact, const RelaxOptions& options, Layers* layers)
+      : c_(cloth),
+        contact_(contact),
+        layers_(layers),
+        o_(options),
+        springs_(cloth),
+        coarse_(cloth),
+        nodes_(packed_nodes(cloth.size)) {
     pack(cloth.x, x_);
     v_.assign(x_.size(), 0.0);
     f_ = a_ = v_;
@@ -105,6 +111,7 @@ class Fire {
     touched_at_.assign(nodes_, -hold_for);
     path_.assign(nodes_, 0.0);
     if (contact_) wake(*contact_);
+    if (layers_) layers_->look(x_);
     update_masses();
     // An energy rise smaller than the weight lifted by a tenth of a millimetre is rounding, not an explosion.
     energy_grain_ = 1e-4 * c_.scale;
@@ -138,7 +145,13 @@ class Fire {
       const bool there = exact && residual <= o_.residual;
       if (look || there) {
         raised_ = contact_ && refresh_contact(*contact_);
-        if (!raised_ && there) {
+        if (layers_ && (there || it >= next_layers_)) {
+          // Rarer and rarer: pairs that change hands for ever would keep the cloth from coming to rest.
+          layers_->look(x_);
+          next_layers_ = it + std::max(o_.check_every, it / 4);
+          raised_ = true;
+        }
+        if (there && (!raised_ || still_there())) {
           out.converged = true;
           return out;
         }
@@ -160,6 +173,12 @@ class Fire {
       advance();
       exact = residual <= 1.2 * o_.residual;
     }
+  }
+
+  /// Whether the cloth is at rest with the contacts as they are now.
+  bool still_there() {
+    forces(true);
+    return net_forces() / c_.scale <= o_.residual;
   }
 
   /// Nodes at the body leave the lattices at once, and come back some time after they left it: those that touch now and
@@ -217,12 +236,14 @@ class Fire {
 
   void forces_at(const Packed& x, Packed& out) {
     springs_.forces(x, out);
+    if (layers_) layers_->forces(x, out);
     if (contact_) contact_forces(*contact_, x, path_, out, false);
   }
 
   void update_masses() {
     mass_ = node_stiffness(c_);
     if (contact_) add_contact_stiffness(*contact_, x_, mass_);
+    if (layers_) layers_->add_stiffness(mass_);
     mass_.resize(nodes_, 0.0);
     per_mass_.assign(nodes_, 0.0);
     for (int n = 0; n < c_.size; ++n) per_mass_[n] = c_.pinned[n] ? 0 : 1 / mass_[n];
@@ -230,6 +251,7 @@ class Fire {
 
   double forces(bool exact) {
     double energy = springs_.forces(x_, f_);
+    if (layers_) energy += layers_->forces(x_, f_);
     if (contact_) energy += contact_forces(*contact_, x_, path_, f_, exact);
     return energy;
   }
@@ -327,6 +349,7 @@ class Fire {
 
   Cloth& c_;
   Contact* contact_;
+  Layers* layers_;
   const RelaxOptions& o_;
   Springs springs_;
   CoarseSpace coarse_;
@@ -339,23 +362,27 @@ class Fire {
   double dt_ = dt_start, dt_cap_ = dt_most, dt_long_ = dt_most, alpha_ = alpha_start;
   double power_ = 0, vv_ = 0;
   double ceiling_ = 0, lowest_ = 0, energy_grain_ = 0;
-  bool raised_ = false;  ///< the contact's penalty in this step: the energy in hand is not what the next step sees
+  bool raised_ = false;  ///< contact changed in this step: the energy in hand is not what the next step sees
   bool ceiling_known_ = false, lattice_old_ = true;
-  int uphill_free_ = 0, calm_ = 0;
+  int uphill_free_ = 0, calm_ = 0, next_layers_ = 1;
 };
 
 }  // namespace
 
-RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options) {
-  return Fire(cloth, contact, options).run();
+RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options, Layers* layers) {
+  return Fire(cloth, contact, options, layers).run();
 }
 
-double residual_of(const Cloth& c, Contact* contact, double friction) {
+double residual_of(const Cloth& c, Contact* contact, double friction, Layers* layers) {
   std::vector<double> cloth_force(c.x.size(), 0.0);
   internal_forces(c, c.x, cloth_force);
   Packed x, force;
   pack(c.x, x);
   pack(cloth_force, force);
+  if (layers) {
+    layers->look(x);
+    layers->forces(x, force);
+  }
   if (contact) {
     wake(*contact);
     contact_forces(*contact, x, std::vector<double>(packed_nodes(c.size), 0.0), force, true);

@@ -4,6 +4,7 @@
 
 #include "cloth.hpp"
 #include "contact.hpp"
+#include "layers.hpp"
 
 namespace vitrine::sewing {
 
@@ -28,10 +29,11 @@ struct RelaxOutcome {
 /// is stable for any k and m; Coulomb friction as an impulse on the velocity. Stops on the force residual outside the
 /// friction cone, never on velocity. Lattices (coarse_space.hpp) move large pieces of the free cloth at once, so the
 /// steps needed hardly grow with the mesh. On x86-64 four numbers at a time where the machine can: the same bytes.
-RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options);
+/// `layers` may be null: then front and back pass through each other where no body parts them.
+RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options, Layers* layers = nullptr);
 
 /// sum |net force| / scale over the free nodes, where friction takes up to mu N of the tangential force at nodes the
 /// body pushes. Looks at every contact sample afresh.
-double residual_of(const Cloth& cloth, Contact* contact, double friction);
+double residual_of(const Cloth& cloth, Contact* contact, double friction, Layers* layers = nullptr);
 
 }  // namespace vitrine::sewing

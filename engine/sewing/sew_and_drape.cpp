@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "audit.hpp"
 #include "checks.hpp"
 #include "contact.hpp"
+#include "effects.hpp"
+#include "layers.hpp"
 #include "prolong.hpp"
 #include "relax.hpp"
 #include "sew.hpp"
@@ -60,7 +63,7 @@ class Tailor {
       : levels_(levels), fabric_(fabric), body_(body), o_(options) {
     column_ = column_weight(levels.back(), fabric, o_.gravity);
     sheet_ = {fabric.stretch, fabric.shear, fabric.bend};
-    if (column_ > 0 && o_.max_weight_strain > 0) {
+    if (column_ > 0 && o_.max_weight_strain > 0 && !(o_.spring_k > 0)) {
       // Beyond this stiffness the shape no longer moves by a millimetre, but the work grows with sqrt(k).
       const double cap = column_ / o_.max_weight_strain;
       if (sheet_.stretch > cap || sheet_.shear > cap) out_.stiffness_cap = cap;
@@ -84,6 +87,13 @@ class Tailor {
  private:
   const Pattern& pattern() const { return levels_[level_]; }
 
+  Cloth cloth_of(const Nodes& nodes, int count) const {
+    Cloth cloth = build_cloth(pattern(), nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+    // The paper's own constants belong to one mesh, the last; coarser ones are the same cloth as a sheet.
+    if (level_ + 1 == static_cast<int>(levels_.size())) set_raw_constants(cloth, o_.spring_k, o_.node_mass);
+    return cloth;
+  }
+
   Contact contact_for(const Cloth& cloth, double dx, Middles middles = Middles::where_needed) const {
     // A node's ordinary load: the column of cloth that hangs below it.
     return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_, middles_ ? Middles::all : middles);
@@ -104,7 +114,7 @@ class Tailor {
       if (std::find(left_alone.begin(), left_alone.end(), 0) == left_alone.end()) continue;
       int count = 0;
       const Nodes nodes = number_nodes(p, weld_, count);
-      Cloth cloth = build_cloth(p, nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+      Cloth cloth = cloth_of(nodes, count);
       push_out(cloth, body_, o_.offset);
       Contact contact = contact_for(cloth, dx);
       closing_ = close_seams(cloth, contact, p, nodes, left_alone, k_, dx, gap_bar);
@@ -141,7 +151,7 @@ class Tailor {
     const double dx = mean_edge(pattern());
     int count = 0;
     nodes_ = number_nodes(pattern(), weld_, count);
-    Cloth cloth = build_cloth(pattern(), nodes_, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+    Cloth cloth = cloth_of(nodes_, count);
     cloth.seams = springs_for(pattern(), nodes_, weld_, closing_.k, closing_.cap);
     const Positions before = scatter(cloth, nodes_);
     push_out(cloth, body_, o_.offset);
@@ -160,14 +170,25 @@ class Tailor {
     };
     RelaxOutcome done = relax(cloth, &contact_, r);
     x_ = scatter(cloth, nodes_);
+    const auto relax_again = [&](Layers* layers) {
+      const int before_this = done.iterations;
+      done = relax(cloth, &contact_, r, layers);
+      done.iterations += before_this;
+      x_ = scatter(cloth, nodes_);
+    };
+    // What was skipped because the scene did not seem to need it is looked at now, and turned on where it mattered.
     if (last && done.finite && !fallen_ && measure_penetration(pattern(), x_, body_) > penetration_bar) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;
       contact_ = contact_for(cloth, dx);
-      const int before_middles = done.iterations;
-      done = relax(cloth, &contact_, r);
-      done.iterations += before_middles;
-      x_ = scatter(cloth, nodes_);
+      relax_again(nullptr);
+    }
+    if (last && done.finite && !fallen_) {
+      crossed_before_ = detect_self_contact(pattern(), nodes_, x_);
+      if (crossed_before_.crossed > 0) {
+        layers_.emplace(pattern(), nodes_, 0.3 * k_);
+        relax_again(&*layers_);
+      }
     }
     out_.energy = done.energy;
 
@@ -196,12 +217,12 @@ class Tailor {
     level_ = static_cast<int>(levels_.size()) - 1;
     int count = 0;
     nodes_ = number_nodes(pattern(), weld_, count);
-    Cloth cloth = build_cloth(pattern(), nodes_, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+    Cloth cloth = cloth_of(nodes_, count);
     cloth.seams = springs_for(pattern(), nodes_, weld_, closing_.k, closing_.cap);
     x_ = scatter(cloth, nodes_);
     if (fallen_) contact_ = contact_for(cloth, mean_edge(pattern()));
     const double mu = o_.friction ? fabric_.friction : 0;
-    out_.residual = residual_of(cloth, &contact_, mu);
+    out_.residual = residual_of(cloth, &contact_, mu, layers_ ? &*layers_ : nullptr);
     const Strains strain = measure_strain(pattern(), x_);
     out_.strain_p99 = strain.p99;
     out_.stretch_p99 = strain.stretch_p99;
@@ -210,13 +231,47 @@ class Tailor {
     out_.seam_gap_mm_max = 1000 * std::max(gap_met_, closing_.open > 0 ? closing_.gap_open : 0.0);
     out_.welded = nodes_;
     out_.positions = x_;
-    judge();
     const SelfContact self = detect_self_contact(pattern(), nodes_, x_);
     out_.self_touching = self.close;
     out_.self_crossed = self.crossed;
     out_.self_crossed_mm_max = 1000 * self.depth;
-    list_effects(self);
+    out_.error_estimate_mm = estimate_error();
+    judge();
+    SceneNotes notes;
+    notes.bend = sheet_.bend;
+    notes.friction = fabric_.friction;
+    notes.voxels_in_reach = share_in_reach();
+    notes.between_nodes = static_cast<int>(contact_.samples.size()) - cloth.size;
+    notes.cut_in = middles_;
+    notes.crossed = crossed_before_;
+    notes.left = self;
+    list_effects(o_, notes, out_);
     return std::move(out_);
+  }
+
+  /// What the next halvings of the edges would still move, from what the last one moved: the changes of a method of
+  /// first order in the edge length are a geometric row. Contact with friction is of no higher order.
+  std::optional<double> estimate_error() const {
+    if (out_.levels.size() < 2) return std::nullopt;
+    const LevelFigures &last = out_.levels.back(), &before = out_.levels[out_.levels.size() - 2];
+    const double ratio = std::sqrt(static_cast<double>(last.nodes) / before.nodes);
+    if (!(ratio > 1.05)) return std::nullopt;
+    return last.change_mean_mm / (ratio - 1);
+  }
+
+  /// Share of the field's voxels in the garment's box.
+  double share_in_reach() const {
+    Vec3 lo = x_[0][0], hi = lo;
+    for (const auto& panel : x_)
+      for (const Vec3& p : panel) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+    double share = 1;
+    for (int a = 0; a < 3; ++a) {
+      const double length = body_.spacing * (body_.size[a] - 1);
+      const double from = std::clamp(lo[a] - body_.origin[a], 0.0, length),
+                   to = std::clamp(hi[a] - body_.origin[a], 0.0, length);
+      share *= (to - from) / length;
+    }
+    return share;
   }
 
   /// The gravest finding names the status.
@@ -246,41 +301,6 @@ class Tailor {
     }
   }
 
-  void list_effects(const SelfContact& self) {
-    out_.modelled = {"tension and shear springs (paper eq. (2)), k spread over the mesh by area", "weight by area",
-                     "seams drawn together and welded", "contact with the voxel body at the skin offset"};
-    auto& modelled = out_.modelled;
-    auto& skipped = out_.skipped;
-    if (o_.bending && sheet_.bend > 0) {
-      modelled.push_back("bending, also across seams");
-    } else {
-      skipped.push_back(o_.bending ? "bending: the fabric's bending stiffness is 0" : "bending: switched off");
-    }
-    if (o_.friction && fabric_.friction > 0) {
-      modelled.push_back("Coulomb friction with the body, quasi-static");
-    } else {
-      skipped.push_back(o_.friction ? "friction: the fabric's coefficient is 0" : "friction: switched off");
-    }
-    if (out_.stiffness_cap > 0)
-      skipped.push_back(
-          text("stiffness above %.4g N/m: the shape would move by less than a millimetre", out_.stiffness_cap));
-    if (contact_.samples.size() > 0)
-      modelled.push_back(middles_
-                             ? "contact of edges and triangles between their nodes: at first they cut into the body"
-                             : "contact of edges and triangles between their nodes: they are long");
-    else
-      skipped.push_back("contact of edges and triangles between their nodes: short enough to follow the body");
-    skipped.push_back("motion: only the rest shape is computed");
-    if (self.close == 0 && self.crossed == 0) {
-      skipped.push_back("self-contact: the body parts front and back, and no two places of them touch");
-    } else {
-      const std::string found = text("%.0f places of front and back touch", self.close) +
-                                text(" and %.0f have crossed, by up to %.1f mm", self.crossed, 1000 * self.depth);
-      skipped.push_back("self-contact: the body parts front and back almost everywhere, but " + found);
-      if (out_.status != "OK") out_.detail += " Self-contact is not modelled: " + found + ".";
-    }
-  }
-
   Error broken() const {
     return {Cause::internal, "NOT_FINITE",
             "the relaxation left the range of numbers on level " + std::to_string(level_) + ".",
@@ -288,7 +308,7 @@ class Tailor {
   }
 
   std::span<const Pattern> levels_;
-  const Fabric& fabric_;
+  const Fabric fabric_;  ///< as a sheet
   const DistanceField& body_;
   const SewingOptions& o_;
   SheetStiffness sheet_;
@@ -301,6 +321,8 @@ class Tailor {
   int level_ = 0, sewing_iterations_ = 0;
   bool fallen_ = false;
   bool middles_ = false;  ///< contact between the nodes was found to matter
+  SelfContact crossed_before_;
+  std::optional<Layers> layers_;  ///< front and back were found to cross
   Drape out_;
 };
 
@@ -309,7 +331,7 @@ class Tailor {
 Result<Drape> sew_and_drape(std::span<const Pattern> levels, const std::vector<std::vector<Vec3>>& placed,
                             const Fabric& fabric, const DistanceField& body, const SewingOptions& options) {
   if (auto e = sewing::check_input(levels, placed, fabric, body, options)) return *e;
-  return Tailor(levels, fabric, body, options).run(placed);
+  return Tailor(levels, sewing::as_sheet(levels.back(), fabric, options), body, options).run(placed);
 }
 
 }  // namespace vitrine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct SewingOptions {
   double gravity = 9.81;            ///< [m/s^2]
   double offset = 0.004;            ///< [m] skin offset: cloth surface to body
   double max_weight_strain = 1e-3;  ///< [-] k is capped where the weight strain falls below this (reported)
+  /// The paper's own constants in place of the fabric's stretch, shear and mass: [N/m] of every spring and [kg] of
+  /// every node of the last level; 0 = the fabric's, spread by area. What cloth that is depends on the mesh; nothing is
+  /// capped.
+  double spring_k = 0, node_mass = 0;
   bool friction = true;
   bool bending = true;
   /// Called now and then with level, iteration and residual; may be empty.
@@ -45,6 +50,9 @@ struct Drape {
   double strain_max = 0;
   int self_touching = 0, self_crossed = 0;  ///< places where front and back lie on each other; have passed through
   double self_crossed_mm_max = 0;           ///< how far
+  /// Mean distance [mm] to what ever finer meshes would give, from how far the last level moved the one before; none
+  /// for a single level, and no bound: rest shapes under friction are not unique.
+  std::optional<double> error_estimate_mm;
   double stiffness_cap = 0;  ///< [N/m] effective limit of k; 0 = not capped
   double energy = 0;         ///< [J]
   std::vector<LevelFigures> levels;
@@ -58,7 +66,8 @@ struct Drape {
 /// NOT_SUPPORTED (it slid off and kept falling), SEAM_OPEN, INSIDE_BODY (> 0.5 mm), OVERSTRETCHED (stretch_p99 > 80 %),
 /// NOT_CONVERGED.
 /// Errors (64): FABRIC_TOO_SOFT (predicted weight strain > 100 %), FABRIC_VALUE (negative or non-finite k, m, ...),
-/// SEWING_OPTION; (65): PATTERN_LEVELS, PATTERN_PANELS, PATTERN_MESH, PATTERN_SEAM, PLACEMENT, NO_BODY, NOT_SUPPORTED
+/// SEWING_OPTION; (65): PATTERN_LEVELS, PATTERN_PANELS, PATTERN_MESH, PATTERN_PIECES, PATTERN_SEAM (wrong way round, or
+/// edges more than three times as long as each other), PLACEMENT, NO_BODY, NOT_SUPPORTED
 /// (placed beside the body).
 Result<Drape> sew_and_drape(std::span<const Pattern> levels, const std::vector<std::vector<Vec3>>& placed,
                             const Fabric& fabric, const DistanceField& body, const SewingOptions& options = {});

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "effects.hpp"
+
+#include <cstdio>
+
+namespace vitrine::sewing {
+namespace {
+
+template <class... Numbers>
+std::string text(const char* format, Numbers... numbers) {
+  char buffer[240];
+  std::snprintf(buffer, sizeof buffer, format, numbers...);
+  return buffer;
+}
+
+std::string found(const SelfContact& s) {
+  return text("%d places of front and back touch, %d have crossed, by up to %.1f mm", s.close, s.crossed,
+              1000 * s.depth);
+}
+
+}  // namespace
+
+void list_effects(const SewingOptions& options, const SceneNotes& notes, Drape& out) {
+  auto& modelled = out.modelled;
+  auto& skipped = out.skipped;
+  modelled = {options.spring_k > 0
+                  ? "springs of one k each (paper eq. (2)), as asked: the mesh decides what cloth it is"
+                  : "tension and shear springs (paper eq. (2)), k spread over the mesh by area",
+              options.node_mass > 0 ? "nodes of one mass each, as asked" : "weight by area",
+              "seams drawn together and welded", "contact with the voxel body at the skin offset"};
+  skipped.push_back(text("voxels outside the garment's reach: %.0f %% of the field are never looked at",
+                         100 * (1 - notes.voxels_in_reach)));
+  if (options.bending && notes.bend > 0)
+    modelled.push_back("bending, also across seams");
+  else
+    skipped.push_back(options.bending ? "bending: the fabric's bending stiffness is 0" : "bending: switched off");
+  if (options.friction && notes.friction > 0)
+    modelled.push_back("Coulomb friction with the body, quasi-static");
+  else
+    skipped.push_back(options.friction ? "friction: the fabric's coefficient is 0" : "friction: switched off");
+  if (out.stiffness_cap > 0)
+    skipped.push_back(
+        text("stiffness above %.4g N/m: the shape would move by less than a millimetre", out.stiffness_cap));
+  if (notes.cut_in)
+    modelled.push_back("contact of all edges and triangles between their nodes: at first they cut into the body");
+  else if (notes.between_nodes > 0)
+    modelled.push_back(
+        text("contact of edges and triangles between their nodes, in %d places where the body turns under them",
+             notes.between_nodes));
+  if (!notes.cut_in)
+    skipped.push_back("contact between nodes elsewhere: the edges are short enough to follow the body");
+  if (notes.crossed.crossed > 0) {
+    modelled.push_back("contact of front and back: at first " + found(notes.crossed) + "; now " + found(notes.left));
+  } else if (notes.left.close == 0) {
+    skipped.push_back("contact of front and back: the body parts them, and no two places touch");
+  } else {
+    skipped.push_back("contact of front and back: they lie on each other without crossing; " + found(notes.left));
+  }
+  skipped.push_back("folds of one panel on itself: the bending of the cloth alone holds them apart");
+  skipped.push_back("motion: only the rest shape is computed");
+}
+
+}  // namespace vitrine::sewing
