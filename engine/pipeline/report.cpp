@@ -75,6 +75,8 @@ std::string report_json(const ConvertRequest& request, const Conversion& item) {
                         {"change_max_mm", l.change_max_mm}});
     j["fabric"] = {{"name", item.fabric.name}, {"stretch", item.fabric.stretch}, {"shear", item.fabric.shear},
                    {"bend", item.fabric.bend}, {"mass", item.fabric.mass},       {"friction", item.fabric.friction}};
+    if (request.spring_k > 0) j["fabric"]["spring_k"] = request.spring_k;
+    if (request.node_mass > 0) j["fabric"]["node_mass"] = request.node_mass;
     j["drape"] = {{"status", d.status},
                   {"detail", d.detail},
                   {"residual", d.residual},
@@ -83,6 +85,10 @@ std::string report_json(const ConvertRequest& request, const Conversion& item) {
                   {"strain_p99", d.strain_p99},
                   {"stretch_p99", d.stretch_p99},
                   {"strain_max", d.strain_max},
+                  {"error_estimate_mm", d.error_estimate_mm ? Json(*d.error_estimate_mm) : Json(nullptr)},
+                  {"front_back_touching", d.self_touching},
+                  {"front_back_crossed", d.self_crossed},
+                  {"front_back_crossed_mm_max", d.self_crossed_mm_max},
                   {"stiffness_cap", d.stiffness_cap},
                   {"energy", d.energy},
                   {"levels", levels},

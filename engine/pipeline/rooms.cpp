@@ -168,6 +168,8 @@ Rooms::Step Rooms::place() {
 Rooms::Step Rooms::sew() {
   SewingOptions options;
   options.residual = plan_.residual;
+  options.spring_k = request_.spring_k;
+  options.node_mass = request_.node_mass;
   if (request_.progress)
     options.progress = [&](int level, int, double) {
       request_.progress("sewing", static_cast<double>(level) / static_cast<double>(levels_.size()));

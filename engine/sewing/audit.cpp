@@ -44,8 +44,10 @@ double measure_penetration(const Pattern& pattern, const Positions& positions, c
   for (std::size_t p = 0; p < positions.size(); ++p) {
     const auto& x = positions[p];
     for (const Vec3& q : x) deepest = std::max(deepest, -body.distance(q));
-    for (const Triangle& t : pattern.meshes[p].triangles)
+    for (const Triangle& t : pattern.meshes[p].triangles) {
       deepest = std::max(deepest, -body.distance((x[t[0]] + x[t[1]] + x[t[2]]) / 3));
+      for (int e = 0; e < 3; ++e) deepest = std::max(deepest, -body.distance((x[t[e]] + x[t[(e + 1) % 3]]) / 2));
+    }
   }
   return deepest;
 }

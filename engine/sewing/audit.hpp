@@ -11,7 +11,7 @@ struct Strains {
 };
 Strains measure_strain(const Pattern& pattern, const Positions& positions);
 
-/// Deepest node or triangle middle inside the body surface [m]; 0 if none.
+/// Deepest node or middle of an edge or triangle inside the body surface [m]; 0 if none.
 double measure_penetration(const Pattern& pattern, const Positions& positions, const DistanceField& body);
 
 struct SelfContact {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coarse_space.hpp"
 #include "lanes.hpp"
@@ -24,6 +25,7 @@ constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 
 constexpr int measure_every = 100, first_rounds = 12, later_rounds = 3;  // of power iteration
 constexpr double probe = 1e-7;                                           // [m]
 constexpr int lattice_every = 25, hold_for = 50;                         // steps
+constexpr int floor_patience = 2000;                                     // steps without halving the residual
 
 /// The part of a node's force that friction cannot hold. `push` is the body's push on the node.
 Vec3 outside_cone(const Vec3& force, const Vec3& push, double mu) {
@@ -115,6 +117,9 @@ class Fire {
     update_masses();
     // An energy rise smaller than the weight lifted by a tenth of a millimetre is rounding, not an explosion.
     energy_grain_ = 1e-4 * c_.scale;
+    double springs = 0;
+    for (std::size_t e = 0; e < c_.edge_k.size(); ++e) springs += c_.edge_k[e] * c_.edge_rest[e];
+    floor_ = std::numeric_limits<double>::epsilon() * springs / c_.scale;
   }
 
   RelaxOutcome run() {
@@ -167,12 +172,18 @@ class Fire {
           ceiling_known_ = false;
         }
       }
-      if (it >= o_.max_iterations) return out;
+      if (it >= o_.max_iterations || at_rounding_floor(it, residual)) return out;
       if (ceiling_known_ || !raised_) watch(energy);
       release(it);
       advance();
       exact = residual <= 1.2 * o_.residual;
     }
+  }
+
+  /// Rounding leaves forces behind; where no progress is made among them, more steps will not help.
+  bool at_rounding_floor(int it, double residual) {
+    if (residual < 0.5 * least_) least_ = residual, least_at_ = it;
+    return residual < 1e3 * floor_ && it - least_at_ > floor_patience;
   }
 
   /// Whether the cloth is at rest with the contacts as they are now.
@@ -365,6 +376,8 @@ class Fire {
   bool raised_ = false;  ///< contact changed in this step: the energy in hand is not what the next step sees
   bool ceiling_known_ = false, lattice_old_ = true;
   int uphill_free_ = 0, calm_ = 0, next_layers_ = 1;
+  double floor_ = 0, least_ = std::numeric_limits<double>::infinity();
+  int least_at_ = 0;
 };
 
 }  // namespace

@@ -60,6 +60,14 @@ void add_convert(CLI::App& app, int& exit_code) {
   command->add_option("--garment", a->garment, "Garment type (vitrine plugin list shows them)")->required();
   command->add_option("--neckline", a->neckline, "auto or the id of a neckline")->capture_default_str();
   command->add_option("--fabric", a->request.fabric, "One of the garment's fabrics; its first when left out");
+  command
+      ->add_option("--spring-k", a->request.spring_k,
+                   "The paper's k [N/m] of every spring of the last mesh, in place of the fabric's sheet stiffness")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--node-mass", a->request.node_mass,
+                   "The paper's m [kg] of every node of the last mesh, in place of the fabric's weight by area")
+      ->check(CLI::PositiveNumber);
   command->add_option("--front-mask", a->request.front_mask,
                       "8-bit mask: 0 background, 128 inside of the back, 255 garment");
   command->add_option("--back-mask", a->request.back_mask, "The same for the back photo");

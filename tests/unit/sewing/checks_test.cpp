@@ -61,6 +61,12 @@ TEST_F(Refusal, of_bad_options) {
   options.gravity = -1;
   expect(Cause::usage, "SEWING_OPTION", "gravity");
   options = {};
+  options.spring_k = -1;
+  expect(Cause::usage, "SEWING_OPTION", "spring_k");
+  options = {};
+  options.node_mass = nan;
+  expect(Cause::usage, "SEWING_OPTION", "node_mass");
+  options = {};
   options.max_iterations = 0;
   expect(Cause::usage, "SEWING_OPTION", "max_iterations");
 }
@@ -89,6 +95,38 @@ TEST_F(Refusal, of_broken_patterns) {
   expect(Cause::unusable, "PATTERN_MESH", "no area");
 }
 
+TEST_F(Refusal, of_pieces_that_nothing_holds) {
+  const auto good = levels;
+  PanelMesh& front = levels[0].meshes[0];
+  const auto first = static_cast<std::uint32_t>(front.nodes.size());
+  front.nodes.insert(front.nodes.end(), {{0, 1}, {0.1, 1}, {0, 1.1}});
+  front.triangles.push_back({first, first + 1, first + 2});
+  placed[0].insert(placed[0].end(), {{0, 1, 0.16}, {0.1, 1, 0.16}, {0, 1.1, 0.16}});
+  expect(Cause::unusable, "PATTERN_PIECES", "3 nodes in the front panel");
+  levels = good;
+  levels[0].pairs.clear();
+  placed = scene::place_flat(levels.front(), 0.16);
+  expect(Cause::unusable, "PATTERN_PIECES", "sewn to nothing");
+}
+
+TEST_F(Refusal, of_seams_sewn_the_wrong_way_round_or_of_lengths_that_do_not_belong_together) {
+  const auto good = levels;
+  std::vector<std::size_t> side;
+  for (std::size_t i = 0; i < good[0].pairs.size(); ++i)
+    if (good[0].pairs[i].seam == good[0].pairs.front().seam) side.push_back(i);
+  ASSERT_GE(side.size(), 4u);
+  for (std::size_t i = 0; i < side.size(); ++i)
+    levels[0].pairs[side[i]].node_b = good[0].pairs[side[side.size() - 1 - i]].node_b;
+  expect(Cause::unusable, "PATTERN_SEAM", "run against each other");
+  levels = good;
+  for (const std::size_t i : side) {
+    Vec2& n = levels[0].meshes[1].nodes[levels[0].pairs[i].node_b];
+    const Vec2 end = good[0].meshes[1].nodes[good[0].pairs[side[0]].node_b];
+    n = end + 0.2 * (n - end);
+  }
+  expect(Cause::unusable, "PATTERN_SEAM", "joins an edge of");
+}
+
 TEST_F(Refusal, of_placements_that_do_not_belong_to_the_pattern_or_the_body) {
   placed[0].pop_back();
   expect(Cause::unusable, "PLACEMENT", "first level");
@@ -105,6 +143,9 @@ TEST_F(Refusal, of_an_empty_body) {
   body = scene::woman();
   body.values.back() = std::numeric_limits<float>::quiet_NaN();
   expect(Cause::unusable, "NO_BODY", "not a number");
+  body = scene::woman();
+  for (float& v : body.values) v = -v;
+  expect(Cause::unusable, "NO_BODY", "inside out");
 }
 
 }  // namespace

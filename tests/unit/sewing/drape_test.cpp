@@ -158,6 +158,14 @@ TEST(Drape, finer_meshes_agree_with_coarser_ones) {
   EXPECT_LT(fine.levels.back().change_mean_mm, 15);
 }
 
+TEST(Drape, the_error_estimate_needs_two_levels_and_covers_what_the_next_one_changes) {
+  EXPECT_FALSE(dress(scene::vest(), {0.05}).error_estimate_mm);
+  const Drape standard = dress(scene::vest(), {0.05, 0.025}), fine = dress(scene::vest(), {0.05, 0.025, 0.0125});
+  ASSERT_TRUE(standard.error_estimate_mm && fine.error_estimate_mm);
+  EXPECT_GT(*standard.error_estimate_mm, 0.5 * fine.levels.back().change_mean_mm);
+  EXPECT_LT(*fine.error_estimate_mm, *standard.error_estimate_mm);
+}
+
 TEST(Drape, progress_reports_level_iteration_and_residual) {
   SewingOptions o;
   o.residual = 1e-2;
@@ -188,25 +196,51 @@ TEST(Drape, a_garment_too_small_for_the_body_is_returned_with_a_status) {
   EXPECT_FALSE(d.detail.empty());
 }
 
-TEST(Drape, contact_between_nodes_is_turned_on_where_tight_cloth_cuts_into_the_body) {
+bool lists(const std::vector<std::string>& effects, const std::string& words) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const std::string& effect) { return effect.find(words) != std::string::npos; });
+}
+
+/// A flat ring of cloth of the given half width and height, sewn at both ends.
+scene::Outline cuff(double half_width, double half_height) {
+  const auto straight = [](const Vec2& a, const Vec2& b, int seam) {
+    return scene::Outline::Edge{a, a + (b - a) / 3, b - (b - a) / 3, b, seam};
+  };
+  const Vec2 a(-half_width, -half_height), b(half_width, -half_height), c(half_width, half_height),
+      d(-half_width, half_height);
+  scene::Outline ring;
+  ring.edges = {straight(a, b, -1), straight(b, c, 0), straight(c, d, -1), straight(d, a, 1)};
+  return ring;
+}
+
+TEST(Drape, contact_between_nodes_is_modelled_where_the_body_turns_under_long_edges) {
   // A cuff of eight edges around a limb of one and a half times its girth: stretched, an edge's middle sags by more
   // than the offset.
   const DistanceField limb = scene::make_field({-0.2, -0.3, -0.2}, {0.2, 0.3, 0.2}, 0.005,
                                                [](const Vec3& p) { return std::hypot(p.x(), p.z()) - 0.035; });
-  const auto straight = [](const Vec2& a, const Vec2& b, int seam) {
-    return scene::Outline::Edge{a, a + (b - a) / 3, b - (b - a) / 3, b, seam};
-  };
-  const Vec2 a(-0.04, -0.05), b(0.04, -0.05), c(0.04, 0.05), d(-0.04, 0.05);
-  scene::Outline cuff;
-  cuff.edges = {straight(a, b, -1), straight(b, c, 0), straight(c, d, -1), straight(d, a, 1)};
-  const std::vector<Pattern> levels{scene::make_pattern(cuff, 0.0205)};
+  const std::vector<Pattern> levels{scene::make_pattern(cuff(0.04, 0.05), 0.0205)};
   const Drape drape =
       must(sew_and_drape(levels, scene::place_flat(levels.front(), 0.06), scene::cotton(), limb, SewingOptions{}));
   EXPECT_EQ(drape.status, "OK") << drape.detail;
   EXPECT_LT(drape.penetration_mm_max, 0.5);
-  EXPECT_TRUE(std::any_of(drape.modelled.begin(), drape.modelled.end(), [](const std::string& effect) {
-    return effect.find("at first they cut into the body") != std::string::npos;
-  }));
+  EXPECT_TRUE(lists(drape.modelled, "places where the body turns under them"));
+}
+
+TEST(Drape, contact_between_nodes_is_turned_on_everywhere_where_cloth_cut_into_the_body) {
+  // Ribs along the limb, thinner than an edge is long: the nodes beside them do not see the surface turn.
+  int turned_on = 0;
+  for (const double out : {0.052, 0.053, 0.054, 0.055, 0.056}) {
+    const DistanceField limb = scene::make_field({-0.2, -0.3, -0.2}, {0.2, 0.3, 0.2}, 0.0025, [&](const Vec3& p) {
+      return std::min(std::hypot(p.x(), p.z()) - 0.05, std::hypot(p.x(), p.z() - out) - 0.005);
+    });
+    const std::vector<Pattern> levels{scene::make_pattern(cuff(0.082, 0.06), 0.03)};
+    const Drape drape =
+        must(sew_and_drape(levels, scene::place_flat(levels.front(), 0.08), scene::cotton(), limb, SewingOptions{}));
+    turned_on += lists(drape.modelled, "at first they cut into the body");
+    EXPECT_LT(drape.penetration_mm_max, 1.5) << out;
+    EXPECT_EQ(drape.status, drape.penetration_mm_max > 0.5 ? "INSIDE_BODY" : "OK") << out;
+  }
+  EXPECT_GT(turned_on, 0);
 }
 
 TEST(Drape, a_small_budget_ends_not_converged_with_the_residual) {
@@ -242,6 +276,82 @@ TEST(Drape, every_stiffness_and_mass_ends_finite_or_with_an_error) {
         EXPECT_TRUE(std::isfinite(r->residual));
         EXPECT_FALSE(r->status.empty());
       }
+}
+
+TEST(Drape, raw_constants_of_an_equilateral_mesh_are_those_of_the_sheet) {
+  // One k for every spring and one m for every node, as in the paper; what they come to as a sheet is the fabric.
+  Fabric sheet = scene::cotton(), ignored = sheet;
+  sheet.stretch = sheet.shear = 500 * 2 / std::sqrt(3.0);
+  ignored.stretch = ignored.shear = 7;
+  SewingOptions o;
+  o.residual = 1e-3;
+  o.max_weight_strain = 0;
+  SewingOptions raw = o;
+  raw.spring_k = 500;
+  const Drape a = dress(scene::vest(), {0.05}, o, sheet), b = dress(scene::vest(), {0.05}, raw, ignored);
+  EXPECT_EQ(a.status, "OK");
+  EXPECT_EQ(b.status, "OK") << b.detail;
+  double sum = 0, most = 0;
+  for (std::size_t i = 0; i < a.positions[0].size(); ++i) {
+    const double moved = (a.positions[0][i] - b.positions[0][i]).norm();
+    sum += moved;
+    most = std::max(most, moved);
+  }
+  EXPECT_GT(most, 0);  // the mesh is not quite equilateral
+  EXPECT_LT(sum / static_cast<double>(a.positions[0].size()), 0.01);
+  EXPECT_TRUE(lists(b.modelled, "springs of one k each"));
+  raw.node_mass = 1e3;
+  const auto levels = levels_of(scene::vest(), {0.05});
+  const auto heavy = sew_and_drape(levels, scene::place_flat(levels[0], 0.16), ignored, scene::woman(), raw);
+  ASSERT_FALSE(heavy);
+  EXPECT_EQ(heavy.error().code, "FABRIC_TOO_SOFT");
+}
+
+TEST(Drape, any_friction_ends_with_a_status) {
+  for (const double mu : {0.0, 1.0, 100.0}) {
+    Fabric f = scene::cotton();
+    f.friction = mu;
+    const Drape d = dress(scene::vest(), {0.05}, {}, f);
+    EXPECT_EQ(d.status, "OK") << mu << ": " << d.detail;
+  }
+}
+
+TEST(Drape, a_residual_below_rounding_ends_before_the_budget_and_is_named) {
+  SewingOptions o;
+  o.residual = 1e-18;
+  o.friction = false;
+  const Drape d = dress(scene::vest(), {0.09}, o);
+  EXPECT_EQ(d.status, "NOT_CONVERGED");
+  EXPECT_LT(d.residual, 1e-7);
+  EXPECT_LT(d.levels.back().iterations, o.max_iterations);
+}
+
+TEST(Drape, panels_both_before_the_body_fall_off_and_are_said_to) {
+  const auto levels = levels_of(scene::vest(), {0.06});
+  Placed placed = scene::place_flat(levels[0], 0.16);
+  for (Vec3& p : placed[1]) p.z() = 0.2;
+  const Drape d = must(sew_and_drape(levels, placed, scene::cotton(), scene::woman(), {}));
+  EXPECT_TRUE(finite(d));
+  EXPECT_EQ(d.status, "NOT_SUPPORTED");
+  EXPECT_FALSE(d.detail.empty());
+}
+
+TEST(Drape, panels_turned_on_their_side_end_with_a_status) {
+  const auto levels = levels_of(scene::vest(), {0.06});
+  Placed turned = scene::place_flat(levels[0], 0.16);
+  for (auto& panel : turned)
+    for (Vec3& p : panel) p = Vec3(p.y() - 1.2, 1.2 - p.x(), p.z());
+  const Drape d = must(sew_and_drape(levels, turned, scene::cotton(), scene::woman(), {}));
+  EXPECT_TRUE(finite(d));
+  EXPECT_TRUE(d.status == "OK" || !d.detail.empty()) << d.status;
+}
+
+TEST(Drape, a_hundredfold_gravity_is_carried_or_named) {
+  SewingOptions o;
+  o.gravity = 981;
+  const Drape d = dress(scene::vest(), {0.06}, o);
+  EXPECT_TRUE(finite(d));
+  EXPECT_TRUE(d.status == "OK" || !d.detail.empty());
 }
 
 TEST(Drape, weightless_cloth_and_missing_gravity_come_to_rest) {

@@ -81,9 +81,10 @@ struct ConvertRequest : GarmentChoice {
   std::string name = "garment";  ///< SKU or any label; goes into asset extras
   std::string front, back;       ///< photo files; back may be empty with mirror_back
   std::string front_mask, back_mask;
-  bool mirror_back = false;      ///< make the back panel from the front photo's silhouette
-  std::string fabric;            ///< name of one of the garment's fabrics; empty = its first
-  double chest = 0, length = 0;  ///< [m] flat measurements as the shop lists them; 0 = unknown
+  bool mirror_back = false;            ///< make the back panel from the front photo's silhouette
+  std::string fabric;                  ///< name of one of the garment's fabrics; empty = its first
+  double spring_k = 0, node_mass = 0;  ///< [N/m], [kg] the paper's own constants, see SewingOptions; 0 = the fabric's
+  double chest = 0, length = 0;        ///< [m] flat measurements as the shop lists them; 0 = unknown
   Quality quality = Quality::standard;
   bool debug_images = false;
   bool obj = false;  ///< also write garment.obj

@@ -44,7 +44,7 @@ struct Drape {
   std::vector<std::vector<std::uint32_t>> welded;  ///< per panel, per node: index of the sewn node
   double residual = 0;                             ///< recomputed independently of the solver's own stop test
   double seam_gap_mm_max = 0;     ///< largest distance of two sewn partners just before they were welded
-  double penetration_mm_max = 0;  ///< deepest node or triangle middle inside the body surface
+  double penetration_mm_max = 0;  ///< deepest node or middle of an edge or triangle inside
   double strain_p99 = 0;          ///< [-] 99th percentile of |edge length / rest - 1|
   double stretch_p99 = 0;         ///< [-] 99th percentile of edge length / rest - 1: what decides OVERSTRETCHED
   double strain_max = 0;

@@ -1,0 +1,10 @@
+# cmake -DPROGRAMS=a,b -P same_output.cmake: both must succeed and print the same, more than nothing.
+string(REPLACE "," ";" PROGRAMS "${PROGRAMS}")
+foreach(program IN LISTS PROGRAMS)
+  execute_process(COMMAND ${program} OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+  message("${program}\n${printed}")
+  if(printed STREQUAL "" OR (DEFINED first AND NOT printed STREQUAL first))
+    message(FATAL_ERROR "the programs do not print the same")
+  endif()
+  set(first "${printed}")
+endforeach()
