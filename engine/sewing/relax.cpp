@@ -19,7 +19,7 @@ constexpr double alpha_start = 0.1, alpha_fade = 0.99, faster = 1.1, slower = 0.
 constexpr int patience = 5;
 // FIRE turns the velocity towards the force. Where a slow slide goes on under small forces, that turn would amount to
 // many steps at once, too long for the stiffest motions: one node at an armhole then shakes and halts the whole cloth.
-constexpr double turn_most = 0.1;  // [dt]
+constexpr double turn_most = 0.05;  // [dt]
 
 constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
 constexpr int measure_every = 100, first_rounds = 12, later_rounds = 3;  // of power iteration
