@@ -227,18 +227,19 @@ TEST(Drape, contact_between_nodes_is_modelled_where_the_body_turns_under_long_ed
 }
 
 TEST(Drape, contact_between_nodes_is_turned_on_everywhere_where_cloth_cut_into_the_body) {
-  // Ribs along the limb, thinner than an edge is long: the nodes beside them do not see the surface turn.
+  // Blades along the limb, thinner than an edge is long: the nodes beside them do not see the surface turn.
   int turned_on = 0;
-  for (const double out : {0.052, 0.053, 0.054, 0.055, 0.056}) {
+  for (const double tip : {0.060, 0.062, 0.064, 0.066}) {
     const DistanceField limb = scene::make_field({-0.2, -0.3, -0.2}, {0.2, 0.3, 0.2}, 0.0025, [&](const Vec3& p) {
-      return std::min(std::hypot(p.x(), p.z()) - 0.05, std::hypot(p.x(), p.z() - out) - 0.005);
+      const double blade = std::hypot(p.x(), std::max(0.0, p.z() - tip)) - 0.004;
+      return std::min(std::hypot(p.x(), p.z()) - 0.05, p.z() > 0 ? blade : 1.0);
     });
     const std::vector<Pattern> levels{scene::make_pattern(cuff(0.082, 0.06), 0.03)};
     const Drape drape =
         must(sew_and_drape(levels, scene::place_flat(levels.front(), 0.08), scene::cotton(), limb, SewingOptions{}));
     turned_on += lists(drape.modelled, "at first they cut into the body");
-    EXPECT_LT(drape.penetration_mm_max, 1.5) << out;
-    EXPECT_EQ(drape.status, drape.penetration_mm_max > 0.5 ? "INSIDE_BODY" : "OK") << out;
+    EXPECT_LT(drape.penetration_mm_max, 2) << tip;
+    EXPECT_EQ(drape.status, drape.penetration_mm_max > 0.5 ? "INSIDE_BODY" : "OK") << tip;
   }
   EXPECT_GT(turned_on, 0);
 }
