@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <set>
 
 namespace vitrine::sewing {
 namespace {
 
 constexpr double tiny_length = 1e-9;  // [m] below this a direction means nothing
 constexpr double tiny_area = 1e-10;   // [m^2]
+// Hems, cuffs, waistbands and neck bands are folded or bound: two or three layers of cloth that bend as one.
+constexpr double band = 0.02;        // [m] wide
+constexpr double band_stiffer = 10;  // [-] two layers would come to 8, three to 27
 
 /// One side of a triangle, seen from the triangle.
 struct HalfEdge {
@@ -76,6 +81,38 @@ void add_hinge(Cloth& c, const HalfEdge& s, const HalfEdge& t, double bend) {
   c.hinge.insert(c.hinge.end(), {s.a, s.b, s.opposite, t.opposite});
   c.hinge_k.push_back(bend / area);
   c.hinge_c.insert(c.hinge_c.end(), k, k + 4);
+}
+
+/// Per cloth node: distance along mesh edges to the nearest open edge of the garment [m], as far as `reach`.
+std::vector<double> from_open_edges(const Pattern& pattern, const Nodes& nodes, int count, double reach) {
+  std::vector<double> far(count, std::numeric_limits<double>::infinity());
+  std::set<std::pair<int, int>> sewn;
+  for (const NodePair& q : pattern.pairs) sewn.insert({q.panel_a, q.node_a}), sewn.insert({q.panel_b, q.node_b});
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    const int n = static_cast<int>(pattern.panels[p].outline.size());
+    // The ends of a seam belong to the open edge beside it, too; an outline node whose neighbours are both sewn does
+    // not.
+    for (int i = 0; i < n; ++i) {
+      const int panel = static_cast<int>(p);
+      if (!sewn.count({panel, i}) || !sewn.count({panel, (i + 1) % n}) || !sewn.count({panel, (i + n - 1) % n}))
+        far[nodes[p][i]] = 0;
+    }
+  }
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (std::size_t p = 0; p < pattern.meshes.size(); ++p)
+      for (const Triangle& t : pattern.meshes[p].triangles)
+        for (int e = 0; e < 3; ++e) {
+          const int i = e, j = (e + 1) % 3;
+          const auto a = nodes[p][t[i]], b = nodes[p][t[j]];
+          const double length = (pattern.meshes[p].nodes[t[i]] - pattern.meshes[p].nodes[t[j]]).norm();
+          for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}})
+            if (far[from] + length < far[to] && far[from] + length <= reach)
+              far[to] = far[from] + length, changed = true;
+        }
+  }
+  return far;
 }
 
 void sum_masses(Cloth& c, const Pattern& pattern, const Nodes& nodes, double density) {
@@ -179,6 +216,7 @@ Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const P
 
   std::vector<HalfEdge> halves;
   collect(pattern, nodes, sheet, halves);
+  const std::vector<double> far = from_open_edges(pattern, nodes, count, 2 * band);
   for (std::size_t i = 0; i < halves.size();) {
     std::size_t end = i;
     double k = 0, pull = 0, area = 0, length = 0;
@@ -198,7 +236,10 @@ Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const P
       c.edge_rest.push_back(pull / k);
     }
     if (bending && sheet.bend > 0)
-      for (std::size_t j = i; j + 1 < end; ++j) add_hinge(c, halves[j], halves[j + 1], sheet.bend);
+      for (std::size_t j = i; j + 1 < end; ++j) {
+        const bool in_band = far[halves[j].a] + far[halves[j].b] <= 2 * band;
+        add_hinge(c, halves[j], halves[j + 1], sheet.bend * (in_band ? band_stiffer : 1));
+      }
     i = end;
   }
   weigh(c);

@@ -31,7 +31,7 @@ void list_effects(const SewingOptions& options, const SceneNotes& notes, Drape& 
   skipped.push_back(text("voxels outside the garment's reach: %.0f %% of the field are never looked at",
                          100 * (1 - notes.voxels_in_reach)));
   if (options.bending && notes.bend > 0)
-    modelled.push_back("bending, also across seams");
+    modelled.push_back("bending, also across seams, and stiffer in hems and bands");
   else
     skipped.push_back(options.bending ? "bending: the fabric's bending stiffness is 0" : "bending: switched off");
   if (options.friction && notes.friction > 0)

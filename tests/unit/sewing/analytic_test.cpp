@@ -182,6 +182,34 @@ TEST(Cloth, bending_costs_what_a_cylinder_costs) {
   EXPECT_NEAR(internal_forces(c, c.x, force), exact, 0.08 * exact);
 }
 
+TEST(Cloth, bends_ten_times_as_stiffly_within_two_centimetres_of_an_open_edge_and_only_there) {
+  const Pattern hemmed = scene::make_pattern(scene::skirt(), 0.012);
+  Pattern raw = hemmed;
+  for (Panel& panel : raw.panels) panel.outline.clear();
+  const std::vector<char> sewn(hemmed.pairs.size(), 1);
+  int count = 0;
+  const Nodes nodes = number_nodes(hemmed, sewn, count);
+  const Positions flat = scene::place_flat(hemmed, 0);
+  const auto cloth = [&](const Pattern& p) {
+    return build_cloth(p, nodes, count, flat, {1000, 300, 1e-5}, 0.2, 9.81, true);
+  };
+  const Cloth with = cloth(hemmed), without = cloth(raw);
+  ASSERT_EQ(with.hinge_k.size(), without.hinge_k.size());
+  double bottom = 9, top = 0;
+  for (const Vec2& q : hemmed.meshes[0].nodes) bottom = std::min(bottom, q.y()), top = std::max(top, q.y());
+  int stiff = 0;
+  for (std::size_t h = 0; h < with.hinge_k.size(); ++h) {
+    const double y = (with.at(with.hinge[4 * h]).y() + with.at(with.hinge[4 * h + 1]).y()) / 2;
+    const double edge = std::min(y - bottom, top - y), ratio = with.hinge_k[h] / without.hinge_k[h];
+    EXPECT_TRUE(std::abs(ratio - 1) < 1e-9 || std::abs(ratio - 10) < 1e-9) << ratio;
+    if (edge > 0.05) {  // the outline's curve at hem and waist takes some
+      EXPECT_NEAR(ratio, 1, 1e-9) << edge;
+    }
+    stiff += ratio > 5;
+  }
+  EXPECT_GT(stiff, 100);
+}
+
 TEST(Cloth, bias_is_softer_than_warp) {
   PanelMesh mesh;
   mesh.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
