@@ -306,7 +306,10 @@ Attempt attempt(const Measurements& m) {
       // Secant steps: where hips are fullest may move, and then the mesh answers twice what the solid was asked.
       const double answer = std::abs(step[i]) > 2e-4 ? (before[i] - result.missed[i]) / step[i] : 1.0;
       step[i] = std::clamp(result.missed[i] / std::clamp(answer, 0.5, 3.0), -0.01, 0.01) * (round < 3 ? 1.0 : 0.6);
-      aim.*sizes[i].value += step[i];
+      // A size that does not follow would be led until the solid falls apart.
+      double& aimed = aim.*sizes[i].value;
+      step[i] = std::clamp(aimed + step[i], m.*sizes[i].value - 0.02, m.*sizes[i].value + 0.02) - aimed;
+      aimed += step[i];
     }
     const double worst = result.missed.cwiseAbs().maxCoeff();
     if (!best.solved || worst < best.missed.cwiseAbs().maxCoeff()) {

@@ -163,8 +163,9 @@ double Figure::detail(const Vec3& p) const {
   // Tight corners, too: crotch and armpits, where long edges would cut through the air.
   const double crotch = 1.6 - (p - Vec3(0, crotch_y_, 0.4 * p.z())).norm() / 0.05;
   const double armpit = 1.6 - (side - armpit_).norm() / 0.05;
-  const double fine = std::max({crotch, armpit, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
-  return 1 - std::max(0.42 * std::clamp(fine, 0.0, 1.0), 0.48 * std::clamp(past_wrist / 0.05, 0.0, 1.0));
+  const double fine = std::max({armpit, (1.5 * ankle_height - p.y()) / 0.05, above_neck / 0.08});
+  return 1 - std::max({0.42 * std::clamp(fine, 0.0, 1.0), 0.48 * std::clamp(past_wrist / 0.05, 0.0, 1.0),
+                       0.60 * std::clamp(crotch, 0.0, 1.0)});
 }
 
 double Figure::crotch_height() const {

@@ -81,7 +81,7 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   const double ratio_ribs = depth_ratio(woman_ ? 0.72 : 0.70, u.under_bust, (woman_ ? 0.49 : 0.55) * h, 0.16);
   const double ratio_chest = depth_ratio(woman_ ? 0.74 : 0.70, chest_girth, (woman_ ? 0.51 : 0.58) * h, 0.12);
   // A large waist stands out in front.
-  const double belly = std::clamp((u.waist / h - 0.44) * 0.5, 0.0, 0.14);
+  const double belly = std::clamp((u.waist / h - 0.44) * 0.42, 0.0, 0.11);
   const double y1 = hip_height, y2 = waist_height, y3 = under_bust_height, y4 = bust_height;
 
   std::vector<Section> s;
@@ -117,8 +117,8 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   between(0.75, belly_first ? 0.40 : 0.24);
   s.push_back(sized(y2, u.waist, ratio_waist, (woman_ ? 0.020 : 0.012) * h, 0.52 + belly, 2.25, 2.4));
   s.push_back(sized(y2 + 0.5 * (y3 - y2), u.waist + 0.48 * (u.under_bust - u.waist), 0.5 * (ratio_waist + ratio_ribs),
-                    (woman_ ? 0.0195 : 0.012) * h, 0.515 + 0.8 * belly, 2.3, 2.5));
-  s.push_back(sized(y3, u.under_bust, ratio_ribs, (woman_ ? 0.018 : 0.013) * h, 0.51 + 0.5 * belly, 2.35, 2.6));
+                    (woman_ ? 0.0195 : 0.012) * h, 0.52 + 0.95 * belly, 2.3, 2.5));
+  s.push_back(sized(y3, u.under_bust, ratio_ribs, (woman_ ? 0.018 : 0.013) * h, 0.515 + 0.75 * belly, 2.35, 2.6));
   const Section chest = sized(y4, chest_girth, ratio_chest, (woman_ ? 0.017 : 0.014) * h,
                               (woman_ ? 0.52 : 0.50) + 0.5 * belly, woman_ ? 2.3 : 2.5, 2.6);
   s.push_back(chest);
@@ -148,7 +148,8 @@ void Figure::make_trunk(const Measurements& m, const BodyPlan& plan, const Unkno
   breast = woman_ ? std::max(0.0, 0.30 * u.bust / (1 + std::max(u.bust, 0.0) / 0.80)) : 0.007 * h;
   bust_apart = (woman_ ? 0.50 : 0.46) * chest.a;
   bosom_.up = (woman_ ? 0.085 : 0.065) * h;
-  bosom_.down = (woman_ ? 0.048 : 0.050) * h;
+  // A heavy breast falls back to the ribs over a longer way, or it would overhang.
+  bosom_.down = (woman_ ? 0.048 : 0.050) * h + std::max(0.0, 0.20 * (breast - 0.025));
   bosom_.inside = (woman_ ? 0.65 : 0.56) * chest.a;
   bosom_.outside = (woman_ ? 0.50 : 0.56) * chest.a;
   bosom_.side = chest.z;
