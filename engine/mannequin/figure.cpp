@@ -74,7 +74,7 @@ double Figure::leg_side(const Vec3& p) const {
 
 double Figure::arm_side(const Vec3& p) const {
   double d = beyond(arm_, p, 0.12) ? far_away : arm_.distance(p);
-  if (!beyond(hand_, p, 0.05)) d = smooth_min(d, smooth_min(hand_.distance(p), cone(thumb_, p), 0.018), 0.02);
+  if (!beyond(hand_, p, 0.05)) d = smooth_min(d, smooth_min(hand_.distance(p), cone(thumb_, p), 0.024), 0.02);
   return d;
 }
 

@@ -207,9 +207,9 @@ void Figure::make_arm(const Measurements& m, const BodyPlan& plan, const Unknown
   }
   hand_ = Loft(g, wrist, along, thin, wide, 0.006, 0.005);
   thumb_.a = wrist + 0.16 * hand * along + 0.48 * palm * wide;
-  thumb_.b = wrist + 0.56 * hand * along + 1.12 * palm * wide - 0.05 * hand * thin;
+  thumb_.b = wrist + 0.52 * hand * along + 1.06 * palm * wide - 0.05 * hand * thin;
   thumb_.ra = 0.34 * palm;
-  thumb_.rb = 0.22 * palm;
+  thumb_.rb = 0.27 * palm;
 
   // Where the arm's lower edge runs into the chest's side.
   const double down = (chest_half_ - inner(angle) + (y - bust_height) * std::tan(angle)) / std::tan(angle);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_check.hpp"
+#include "vitrine/mannequin.hpp"
 #include "voxels.hpp"
 
 namespace vitrine::body {
@@ -64,9 +66,27 @@ void sort_by(std::vector<Pair>& pairs, std::uint32_t Pair::*key, std::size_t key
   pairs = std::move(sorted);
 }
 
+void leave_out_contradictions(const DistanceField& field, SurfacePatches& patches) {
+  const std::size_t sy = field.size[0], sz = sy * field.size[1];
+  for (std::size_t b = 0; b < patches.brick.size(); ++b) {
+    if (patches.brick[b] < 0) continue;
+    const int brick = static_cast<int>(b), bx = patches.bricks[0], by = patches.bricks[1];
+    for (int c = 0; c < 64; ++c) {
+      SurfacePatches::Cell& cell = patches.cells[static_cast<std::size_t>(patches.brick[b] + c)];
+      if (cell.reach == 0) continue;
+      for (int k = 0; k < 8 && cell.reach > 0; ++k) {
+        const int x = 4 * (brick % bx) + (c & 3) + (k & 1), y = 4 * (brick / bx % by) + (c >> 2 & 3) + (k >> 1 & 1),
+                  z = 4 * (brick / bx / by) + (c >> 4) + (k >> 2);
+        const double d = patches.distance(field.origin + field.spacing * Vec3(x, y, z), cell);
+        if ((d < 0) != (field.values[static_cast<std::size_t>(x) + sy * y + sz * z] < 0)) cell.reach = 0;
+      }
+    }
+  }
+}
+
 }  // namespace
 
-SurfacePatches find_patches(const Surface& surface, const DistanceField& field) {
+SurfacePatches find_patches(const Surface& surface, const DistanceField& field, bool overlaps) {
   SurfacePatches result;
   const auto bricks = [&field](int k) { return (field.size[k] + 3) / 4; };
   result.bricks = {bricks(0), bricks(1), bricks(2)};
@@ -121,14 +141,25 @@ SurfacePatches find_patches(const Surface& surface, const DistanceField& field) 
       result.cells[k].first = static_cast<std::uint32_t>(result.facet.size());
   }
   result.cells.push_back({0, static_cast<std::uint32_t>(result.facet.size())});
+  const float outward = signed_volume(surface.mesh) < 0 ? -1.0F : 1.0F;
   result.facets.reserve(surface.facets.size());
   for (std::size_t i = 0; i < surface.facets.size(); ++i) {
     const Triangle& t = surface.mesh.triangles[i];
     const Vec3& a = surface.mesh.vertices[t[0]];
     result.facets.push_back({a, (surface.mesh.vertices[t[1]] - a).cast<float>(),
-                             (surface.mesh.vertices[t[2]] - a).cast<float>(), surface.facets[i].normal()});
+                             (surface.mesh.vertices[t[2]] - a).cast<float>(), outward * normals[i]});
   }
+  result.overlaps = overlaps;
+  if (overlaps) leave_out_contradictions(field, result);
   return result;
 }
 
 }  // namespace vitrine::body
+
+namespace vitrine {
+
+SurfacePatches find_patches(const TriMesh& body, const DistanceField& field, bool overlaps) {
+  return body::find_patches(body::Surface(body), field, overlaps);
+}
+
+}  // namespace vitrine

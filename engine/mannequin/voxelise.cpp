@@ -98,10 +98,19 @@ void sweep(const Surface& body, const Grid& g, std::vector<float>& distance, std
   }
 }
 
-/// Inside or outside by counting crossings along each grid line in x: on a watertight mesh the count cannot be misled,
-/// provided that a line through an edge or corner meets it on one side only; the comparisons below are half-open.
-void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& distance) {
-  std::vector<std::vector<float>> crossing(static_cast<std::size_t>(g.n[1]) * g.n[2]);
+/// Where a grid line along x meets the surface.
+struct Crossing {
+  float x;  ///< [voxels]
+  int way;  ///< 1 into the body, -1 out of it
+  bool operator<(const Crossing& other) const { return x < other.x; }
+};
+
+/// Inside or outside by the winding number along each grid line in x: on a watertight mesh the count cannot be misled,
+/// provided that a line through an edge or corner meets it on one side only; the comparisons below are half-open. Where
+/// the mesh overlaps itself (a hand in a thigh) it is inside twice,
+/// which is inside; gives whether that was seen.
+bool sign_by_winding(const TriMesh& body, const Grid& g, std::vector<float>& distance) {
+  std::vector<std::vector<Crossing>> crossing(static_cast<std::size_t>(g.n[1]) * g.n[2]);
   for (const Triangle& t : body.triangles) {
     const Vec3 *a = &body.vertices[t[0]], *b = &body.vertices[t[1]], *c = &body.vertices[t[2]];
     const double low_y = std::min({a->y(), b->y(), c->y()}), high_y = std::max({a->y(), b->y(), c->y()});
@@ -112,12 +121,15 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
       // The triangle cut at this level: two points, each computed from its mesh edge alone (low vertex first), so the
       // neighbour over that edge gets the very same numbers.
       double cut_z[3], cut_x[3];
-      int cuts = 0;
+      int cuts = 0, rising = 0;  // rising: which cut the triangle's outline passes upwards
       const Vec3* corner[3] = {a, b, c};
       for (int i = 0; i < 3; ++i) {
         const Vec3 *p = corner[i], *q = corner[(i + 1) % 3];
         if ((p->y() >= level) == (q->y() >= level)) continue;
-        if (q->y() < p->y()) std::swap(p, q);
+        if (q->y() < p->y())
+          std::swap(p, q);
+        else
+          rising = cuts;
         const double f = (level - p->y()) / (q->y() - p->y());
         cut_z[cuts] = p->z() + f * (q->z() - p->z());
         cut_x[cuts++] = p->x() + f * (q->x() - p->x());
@@ -126,7 +138,9 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
       if (cut_z[0] > cut_z[1]) {
         std::swap(cut_z[0], cut_z[1]);
         std::swap(cut_x[0], cut_x[1]);
+        rising = 1 - rising;
       }
+      const int way = rising == 1 ? 1 : -1;  // upwards on its +z side: the triangle looks towards -x
       const int z0 = std::max(0, static_cast<int>(std::floor((cut_z[0] - g.origin.z()) / g.spacing)) - 1);
       const int z1 = std::min(g.n[2] - 1, static_cast<int>(std::ceil((cut_z[1] - g.origin.z()) / g.spacing)) + 1);
       for (int z = z0; z <= z1; ++z) {
@@ -134,20 +148,28 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
         if ((cut_z[0] >= depth) == (cut_z[1] >= depth)) continue;
         const double f = (depth - cut_z[0]) / (cut_z[1] - cut_z[0]);
         crossing[y + static_cast<std::size_t>(g.n[1]) * z].push_back(
-            static_cast<float>((cut_x[0] + f * (cut_x[1] - cut_x[0]) - g.origin.x()) / g.spacing));
+            {static_cast<float>((cut_x[0] + f * (cut_x[1] - cut_x[0]) - g.origin.x()) / g.spacing), way});
       }
     }
   }
+  bool overlaps = false;
   for (int z = 0; z < g.n[2]; ++z)
     for (int y = 0; y < g.n[1]; ++y) {
-      std::vector<float>& line = crossing[y + static_cast<std::size_t>(g.n[1]) * z];
-      std::sort(line.begin(), line.end());
-      for (std::size_t i = 0; i + 1 < line.size(); i += 2) {
-        const int from = std::max(0, static_cast<int>(std::ceil(line[i])));
-        const int to = std::min(g.n[0] - 1, static_cast<int>(std::floor(line[i + 1])));
-        for (int x = from; x <= to; ++x) distance[g.index(x, y, z)] *= -1.0F;
+      std::vector<Crossing>& line = crossing[y + static_cast<std::size_t>(g.n[1]) * z];
+      std::stable_sort(line.begin(), line.end());
+      int winding = 0;
+      float in = 0;
+      for (const Crossing& c : line) {
+        if (winding == 0) in = c.x;
+        winding += c.way;
+        overlaps = overlaps || std::abs(winding) > 1;
+        if (winding != 0) continue;
+        const int from = std::max(0, static_cast<int>(std::ceil(in)));
+        const int to = std::min(g.n[0] - 1, static_cast<int>(std::floor(c.x)));
+        for (int x = from; x <= to; ++x) distance[g.index(x, y, z)] = -std::abs(distance[g.index(x, y, z)]);
       }
     }
+  return overlaps;
 }
 
 constexpr double band_voxels = 3;  ///< exact distances up to this many voxels from the surface: cloth lies within
@@ -226,7 +248,7 @@ Coarse make_coarse(const Surface& surface, const Grid& g) {
         c.foot[v] = (at - g.origin).cast<float>();
         c.distance[v] = static_cast<float>((at - p).norm());
       }
-  sign_by_parity(body, c.grid, c.distance);
+  sign_by_winding(body, c.grid, c.distance);
   return c;
 }
 
@@ -361,8 +383,8 @@ Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options)
   fill_band(surface, g, band, field.values, {});
   fill_far(make_coarse(surface, g), g, static_cast<float>(band), field.values);
   limit_slope(g, field.values);
-  sign_by_parity(body, g, field.values);
-  field.patches = body::find_patches(surface, field);
+  const bool overlaps = sign_by_winding(body, g, field.values);
+  field.patches = body::find_patches(surface, field, overlaps);
   return field;
 }
 

@@ -117,7 +117,8 @@ struct Grid {
   Vec3 at(int x, int y, int z) const { return origin + spacing * Vec3(x, y, z); }
 };
 
-/// The triangles that decide the sign in each cell that the surface passes, for a field whose values are known.
-SurfacePatches find_patches(const Surface& surface, const DistanceField& field);
+/// The triangles that decide the sign in each cell that the surface passes, for a field whose values are known. Where
+/// the mesh overlaps itself, triangles lie inside the body; cells whose triangles contradict the values are left out.
+SurfacePatches find_patches(const Surface& surface, const DistanceField& field, bool overlaps);
 
 }  // namespace vitrine::body

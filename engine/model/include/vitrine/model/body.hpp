@@ -46,6 +46,7 @@ struct SurfacePatches {
   std::vector<Cell> cells;          ///< one more closes the last list
   std::vector<std::uint32_t> facet;
   std::vector<Facet> facets;
+  bool overlaps = false;  ///< the mesh cuts through itself: cells whose triangles lie inside the body were left out
 
   /// The cell at these grid coordinates, null where nothing is kept.
   const Cell* at(const std::array<int, 3>& c) const {
