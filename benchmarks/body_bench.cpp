@@ -149,7 +149,7 @@ int try_fields(const std::string& csv) {
 int try_imports(const std::string& folder) {
   std::ifstream in(folder + "/measurements.tsv");
   std::string line;
-  if (!std::getline(in, line)) {
+  if (!in) {
     std::fprintf(stderr, "%s/measurements.tsv: cannot be read\n", folder.c_str());
     return 1;
   }
@@ -164,6 +164,7 @@ int try_imports(const std::string& folder) {
     std::istringstream row(line);
     std::string file;
     row >> file;
+    if (file.empty() || file == "asset" || file.front() == '#') continue;
     const Result<Mannequin> body = import_mannequin(folder + "/" + file);
     if (!body) {
       std::printf("%s: %s\n", file.c_str(), body.error().message.c_str());
