@@ -72,13 +72,13 @@ void leave_out_contradictions(const DistanceField& field, SurfacePatches& patche
     if (patches.brick[b] < 0) continue;
     const int brick = static_cast<int>(b), bx = patches.bricks[0], by = patches.bricks[1];
     for (int c = 0; c < 64; ++c) {
-      SurfacePatches::Cell& cell = patches.cells[static_cast<std::size_t>(patches.brick[b] + c)];
-      if (cell.reach == 0) continue;
-      for (int k = 0; k < 8 && cell.reach > 0; ++k) {
+      const std::int32_t cell = patches.brick[b] + c;
+      std::uint8_t& reach = patches.reach[static_cast<std::size_t>(cell)];
+      for (int k = 0; k < 8 && reach > 0; ++k) {
         const int x = 4 * (brick % bx) + (c & 3) + (k & 1), y = 4 * (brick / bx % by) + (c >> 2 & 3) + (k >> 1 & 1),
                   z = 4 * (brick / bx / by) + (c >> 4) + (k >> 2);
         const double d = patches.distance(field.origin + field.spacing * Vec3(x, y, z), cell);
-        if ((d < 0) != (field.values[static_cast<std::size_t>(x) + sy * y + sz * z] < 0)) cell.reach = 0;
+        if ((d < 0) != (field.values[static_cast<std::size_t>(x) + sy * y + sz * z] < 0)) reach = 0;
       }
     }
   }
@@ -99,6 +99,7 @@ SurfacePatches find_patches(const Surface& surface, const DistanceField& field, 
   for (const Facet& facet : surface.facets) normals.push_back(facet.normal());
   const auto normal = [&](std::size_t k) -> const Eigen::Vector3f& { return normals[pairs[k].triangle]; };
   const float h = static_cast<float>(field.spacing);
+  result.most = most_reach * h;
   const std::size_t sy = field.size[0], sz = sy * field.size[1];
   result.facet.reserve(pairs.size());
   for (std::size_t i = 0, end = 0; i < pairs.size(); i = end) {
@@ -129,18 +130,19 @@ SurfacePatches find_patches(const Surface& surface, const DistanceField& field, 
     if (low > SurfacePatches::fade * reach || high < -SurfacePatches::fade * reach) continue;
     std::int32_t& start = result.brick[first.brick];
     if (start < 0) {
-      start = static_cast<std::int32_t>(result.cells.size());
-      result.cells.insert(result.cells.end(), 64, {0, static_cast<std::uint32_t>(result.facet.size())});
+      start = static_cast<std::int32_t>(result.reach.size());
+      result.reach.insert(result.reach.end(), 64, 0);
+      result.first.insert(result.first.end(), 64, static_cast<std::uint32_t>(result.facet.size()));
     }
     const std::size_t here = static_cast<std::size_t>(start) + first.cell;
-    result.cells[here].reach = reach;
+    result.reach[here] = static_cast<std::uint8_t>(std::ceil(reach / result.most * 255));
     const float farthest = 0.867F * h + (1 + SurfacePatches::fade) * reach;
     for (std::size_t k = i; k < end && pairs[k].distance2 <= farthest * farthest; ++k)
       result.facet.push_back(pairs[k].triangle);
-    for (std::size_t k = here + 1; k < result.cells.size(); ++k)
-      result.cells[k].first = static_cast<std::uint32_t>(result.facet.size());
+    std::fill(result.first.begin() + static_cast<std::ptrdiff_t>(here) + 1, result.first.end(),
+              static_cast<std::uint32_t>(result.facet.size()));
   }
-  result.cells.push_back({0, static_cast<std::uint32_t>(result.facet.size())});
+  result.first.push_back(static_cast<std::uint32_t>(result.facet.size()));
   const float outward = signed_volume(surface.mesh) < 0 ? -1.0F : 1.0F;
   result.facets.reserve(surface.facets.size());
   for (std::size_t i = 0; i < surface.facets.size(); ++i) {

@@ -39,11 +39,12 @@ Vec3 nearest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   return nearest_on<Vec3>(p, a, b, c);
 }
 
-double SurfacePatches::distance(const Vec3& p, const Cell& cell) const {
+double SurfacePatches::distance(const Vec3& p, std::int32_t cell) const {
   // Floats about a triangle's own corner: there 1e-7 is less than a nanometre.
   constexpr float same = 1e-8F;
   float least = std::numeric_limits<float>::max(), height = 0;
-  for (std::uint32_t i = cell.first; i < (&cell)[1].first; ++i) {
+  const std::uint32_t* list = &first[static_cast<std::size_t>(cell)];
+  for (std::uint32_t i = list[0]; i < list[1]; ++i) {
     const Facet& f = facets[facet[i]];
     const Eigen::Vector3f q = (p - f.a).cast<float>();
     const float h = f.normal.dot(q);
@@ -57,12 +58,14 @@ double SurfacePatches::distance(const Vec3& p, const Cell& cell) const {
 }
 
 double DistanceField::near_surface(const Vec3& p, const std::array<int, 3>& at, double d) const {
-  const SurfacePatches::Cell* cell = patches.at(at);
+  const std::int32_t cell = patches.cell(at);
+  if (cell < 0) return d;
   // Exact where interpolation may err on the sign, and from there gradually what it was.
-  if (cell == nullptr || std::abs(d) >= SurfacePatches::fade * cell->reach) return d;
-  const double exact = patches.distance(p, *cell), beyond = std::abs(d) - cell->reach;
+  const double reach = patches.reach_of(cell), beyond = std::abs(d) - reach;
+  if (beyond >= (SurfacePatches::fade - 1) * reach) return d;
+  const double exact = patches.distance(p, cell);
   if (beyond <= 0) return exact;
-  const double t = beyond / ((SurfacePatches::fade - 1) * cell->reach);
+  const double t = beyond / ((SurfacePatches::fade - 1) * reach);
   return exact + t * t * (3 - 2 * t) * (d - exact);
 }
 

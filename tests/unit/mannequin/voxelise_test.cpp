@@ -192,7 +192,7 @@ TEST(Voxelise, finds_the_same_patches_again_for_kept_values) {
   ASSERT_TRUE(field);
   DistanceField kept = *field;
   kept.patches = find_patches(mesh, kept, field->patches.overlaps);
-  EXPECT_GT(kept.patches.cells.size(), 1000u);
+  EXPECT_GT(kept.patches.reach.size(), 1000u);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit(-0.01, 0.01);
   for (const Vec3& v : mesh.vertices) {

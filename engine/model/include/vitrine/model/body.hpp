@@ -34,29 +34,31 @@ struct SurfacePatches {
     Vec3 a = Vec3::Zero();                                      ///< [m] first corner
     Eigen::Vector3f ab{0, 0, 0}, ac{0, 0, 0}, normal{0, 0, 0};  ///< the others from there [m]; outward, unit
   };
-  struct Cell {
-    float reach = 0;  ///< [m] by how much interpolation in this cell may err; 0: the surface is not here, or flat
-    std::uint32_t first = 0;  ///< in `facet`; the next cell's `first` ends the list
-  };
   /// Up to a cell's reach the triangles alone count, from this many times the reach the interpolation alone.
   static constexpr float fade = 1.3F;
   /// Cells come in bricks of 4 x 4 x 4, x fastest; only bricks that the surface passes are kept.
   std::array<int, 3> bricks{0, 0, 0};
   std::vector<std::int32_t> brick;  ///< number of each brick's first cell, or -1; x fastest
-  std::vector<Cell> cells;          ///< one more closes the last list
+  /// By how much interpolation in each cell may err, in shares of `most`; 0: the surface is not here, or flat. Bytes,
+  /// so that most lookups end in the processor's cache.
+  std::vector<std::uint8_t> reach;
+  float most = 0;                    ///< [m]
+  std::vector<std::uint32_t> first;  ///< of each cell's list in `facet`; the next one ends it
   std::vector<std::uint32_t> facet;
   std::vector<Facet> facets;
   bool overlaps = false;  ///< the mesh cuts through itself: cells whose triangles lie inside the body were left out
 
-  /// The cell at these grid coordinates, null where nothing is kept.
-  const Cell* at(const std::array<int, 3>& c) const {
+  /// Number of the cell at these grid coordinates, -1 where nothing is kept.
+  std::int32_t cell(const std::array<int, 3>& c) const {
     const std::size_t row = static_cast<std::size_t>(c[1] >> 2) + static_cast<std::size_t>(bricks[1]) * (c[2] >> 2);
     const std::int32_t start = brick[static_cast<std::size_t>(c[0] >> 2) + static_cast<std::size_t>(bricks[0]) * row];
-    return start < 0 ? nullptr
-                     : &cells[static_cast<std::size_t>(start + ((c[0] & 3) | (c[1] & 3) << 2 | (c[2] & 3) << 4))];
+    return start < 0 ? -1 : start + ((c[0] & 3) | (c[1] & 3) << 2 | (c[2] & 3) << 4);
+  }
+  float reach_of(std::int32_t cell) const {
+    return most / 255 * static_cast<float>(reach[static_cast<std::size_t>(cell)]);
   }
   /// Signed distance [m] of p to the nearest of a cell's triangles.
-  double distance(const Vec3& p, const Cell& cell) const;
+  double distance(const Vec3& p, std::int32_t cell) const;
 };
 
 /// Signed distance to the body on a regular grid of voxels (paper III.C): negative inside, metres.
