@@ -12,6 +12,9 @@ constexpr float list_reach =
 constexpr float fold_reach = 1.15F;  ///< [voxels] from a cell's middle: folds that its corners can look across
 constexpr float most_reach = 0.6F;   ///< [voxels] interpolation errs by no more, opposite walls in one cell included
 
+/// Lists would take gigabytes for more, and folds between triangles so small are too flat to matter.
+constexpr std::size_t most_facets = 400'000;
+
 struct Pair {
   std::uint32_t brick, cell, triangle;  ///< cell: within the brick
   float distance2;                      ///< [m^2] of the triangle from the cell's middle
@@ -22,6 +25,7 @@ std::vector<Pair> near_cells(const Surface& surface, const DistanceField& field,
   const float h = static_cast<float>(field.spacing), reach = list_reach * h;
   const Vec3 middle = field.origin + Vec3::Constant(0.5 * field.spacing);
   std::vector<Pair> pairs;
+  pairs.reserve(std::min<std::size_t>(64 * surface.facets.size(), std::size_t{1} << 21));
   std::vector<float> line;
   for (std::size_t i = 0; i < surface.facets.size(); ++i) {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
@@ -88,6 +92,8 @@ void leave_out_contradictions(const DistanceField& field, SurfacePatches& patche
 
 SurfacePatches find_patches(const Surface& surface, const DistanceField& field, bool overlaps) {
   SurfacePatches result;
+  result.overlaps = overlaps;
+  if (surface.facets.size() > most_facets) return result;
   const auto bricks = [&field](int k) { return (field.size[k] + 3) / 4; };
   result.bricks = {bricks(0), bricks(1), bricks(2)};
   result.brick.assign(static_cast<std::size_t>(bricks(0)) * bricks(1) * bricks(2), -1);
@@ -151,7 +157,6 @@ SurfacePatches find_patches(const Surface& surface, const DistanceField& field, 
     result.facets.push_back({a, (surface.mesh.vertices[t[1]] - a).cast<float>(),
                              (surface.mesh.vertices[t[2]] - a).cast<float>(), outward * normals[i]});
   }
-  result.overlaps = overlaps;
   if (overlaps) leave_out_contradictions(field, result);
   return result;
 }

@@ -44,7 +44,8 @@ Result<Mannequin> build_mannequin(const Measurements& measurements);
 Result<Mannequin> import_mannequin(const std::string& path);
 
 /// Signed distance on voxels around the body (paper III.C): exact up to three voxels from the surface, beyond that
-/// interpolated between exact distances four voxels apart. Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
+/// interpolated between exact distances four voxels apart. Signs are exact up to 400,000 triangles; with more they are
+/// the interpolation's. Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
 Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options = {});
 
 /// What `voxelise` puts into `patches`, for a field whose values were kept somewhere. `overlaps`: as it was in the
