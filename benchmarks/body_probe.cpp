@@ -178,8 +178,7 @@ FieldProbe probe_field(const TriMesh& body, const DistanceField& field, std::siz
     const double off = std::abs(got - exact);
     r.worst = std::max(r.worst, off);
     good += off <= 5e-4 ? 1 : 0;
-    // A trilinear field cannot tell the side closer to the surface than its own error: how deep a wrong sign lies
-    // tells whether that is all.
+    // How deep a wrong sign lies tells whether it is more than rounding.
     if ((got < 0) == inside || std::abs(exact) < 1e-9) continue;
     ++r.wrong_signs;
     if (std::abs(exact) > 5e-4) ++r.wrong_beyond_half_mm;

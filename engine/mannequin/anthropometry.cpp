@@ -56,8 +56,11 @@ const Row rows[] = {
 
 Error implausible(const std::string& name, double value, double low, double high, const char* what) {
   char text[200];
-  std::snprintf(text, sizeof text, "%s of %.0f mm is outside %.0f to %.0f mm", name.c_str(), value * 1e3, low * 1e3,
-                high * 1e3);
+  // A slip of the unit is seen by its digits: 1.68 mm, not 2 mm.
+  const bool usual = value >= 0.1 && value < 100;
+  std::snprintf(text, sizeof text,
+                usual ? "%s of %.0f mm is outside %.0f to %.0f mm" : "%s of %.4g mm is outside %.0f to %.0f mm",
+                name.c_str(), value * 1e3, low * 1e3, high * 1e3);
   return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", std::string(text) + what + ".",
                "Give " + name + " within that range, in the unit the setting asks for.", ""};
 }

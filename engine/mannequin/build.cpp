@@ -39,7 +39,8 @@ Fullest fullest_hips(const Figure& f, int levels, const Girth& girth) {
 
 Tapes read_tapes(const Figure& f) {
   const auto level = [&f](double y) { return f.tape({0, y, 0.01}, Vec3::UnitX(), Vec3::UnitZ()); };
-  return {level(f.under_bust_height), level(f.bust_height), level(f.waist_height), fullest_hips(f, 5, level).girth,
+  const auto hips = [&f](double y) { return f.tape({0, y, 0.01}, Vec3::UnitX(), Vec3::UnitZ(), f.hip_reach()); };
+  return {level(f.under_bust_height), level(f.bust_height), level(f.waist_height), fullest_hips(f, 5, hips).girth,
           f.tape(f.neck_base, Vec3::UnitX(), f.neck_forward)};
 }
 
@@ -220,7 +221,9 @@ void describe(const Figure& f, const BodyPlan& plan, Mannequin& body) {
   mark["crotch"] = crotch_of(body.mesh, {0, f.hip_height, 0});
   set_pair(body, "knee", f.leg_centre(f.knee_height));
   set_pair(body, "ankle", f.leg_centre(f.ankle_height));
-  mark["crown"] = f.exit(f.head_centre(), Vec3::UnitY());
+  const Vec3 top = *std::max_element(body.mesh.vertices.begin(), body.mesh.vertices.end(),
+                                     [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+  mark["crown"] = Vec3(0, top.y(), top.z());
 }
 
 /// Everything is read off the mesh, as a customer would with a tape.
@@ -303,7 +306,10 @@ Attempt attempt(const Measurements& m) {
       // Secant steps: where hips are fullest may move, and then the mesh answers twice what the solid was asked.
       const double answer = std::abs(step[i]) > 2e-4 ? (before[i] - result.missed[i]) / step[i] : 1.0;
       step[i] = std::clamp(result.missed[i] / std::clamp(answer, 0.5, 3.0), -0.01, 0.01) * (round < 3 ? 1.0 : 0.6);
-      aim.*sizes[i].value += step[i];
+      // A size that does not follow would be led until the solid falls apart.
+      double& aimed = aim.*sizes[i].value;
+      step[i] = std::clamp(aimed + step[i], m.*sizes[i].value - 0.02, m.*sizes[i].value + 0.02) - aimed;
+      aimed += step[i];
     }
     const double worst = result.missed.cwiseAbs().maxCoeff();
     if (!best.solved || worst < best.missed.cwiseAbs().maxCoeff()) {
@@ -370,9 +376,12 @@ Error impossible(const Measurements& m, const Vec8& miss) {
   for (const int i : order) {
     const std::optional<Range> range = range_that_works(m, sizes[i].value);
     if (!range) continue;
+    // Whole millimetres; a range without any is no advice.
+    const double low = std::ceil(range->low * 1e3), high = std::floor(range->high * 1e3);
+    if (low > high) continue;
     char text[240];
     std::snprintf(text, sizeof text, "%s of %.0f mm fits no body with these other measurements: %.0f to %.0f mm works.",
-                  sizes[i].name, m.*sizes[i].value * 1e3, std::ceil(range->low * 1e3), std::floor(range->high * 1e3));
+                  sizes[i].name, m.*sizes[i].value * 1e3, low, high);
     return Error{Cause::unusable, "IMPLAUSIBLE_MEASUREMENTS", text,
                  std::string("Give ") + sizes[i].name + " within that range, or check the other measurements.", ""};
   }

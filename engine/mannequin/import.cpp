@@ -149,6 +149,38 @@ struct Box {
   }
 };
 
+struct Unit {
+  double metres;
+  const char* name;
+};
+
+/// The unit in which so tall a body is a person; metres where none is.
+Unit guess_unit(double height) {
+  constexpr Unit units[] = {{1e-3, "millimetres"}, {1e-2, "centimetres"}, {0.0254, "inches"}};
+  for (const Unit& unit : units)
+    if (height * unit.metres >= 1.4 && height * unit.metres <= 2.2) return unit;
+  return {1.0, "metres"};
+}
+
+/// Whether the feet reach further to the back (-Z) than to the front of the shins. Expects metres, soles at y = 0.
+bool faces_backwards(const TriMesh& mesh, double height) {
+  double shin = 0, front = -1e300, back = 1e300;
+  int count = 0;
+  for (const Vec3& v : mesh.vertices) {
+    if (v.y() > 0.07 * height && v.y() < 0.14 * height) {
+      shin += v.z();
+      ++count;
+    }
+    if (v.y() < 0.03 * height) {
+      front = std::max(front, v.z());
+      back = std::min(back, v.z());
+    }
+  }
+  if (count == 0 || front < back) return false;
+  shin /= count;
+  return shin - back > 1.3 * (front - shin);
+}
+
 /// Keeps the largest piece. Small pieces within its box (eyes, teeth) are left out: cloth never meets them. Anything
 /// else that stands apart (a base plate, a second figure) is refused.
 Result<TriMesh> main_piece(const TriMesh& mesh, const std::string& path) {
@@ -219,12 +251,11 @@ Result<Mannequin> import_mannequin(const std::string& path) {
       result.warnings.push_back(path + " stands along +Z: turned so that +Y is up and its -Y the front");
     }
     const Vec3 size = box.high - box.low;
-    const double unit = size.y() >= 1400 && size.y() <= 2200 ? 1e-3 : size.y() >= 140 && size.y() <= 220 ? 1e-2 : 1.0;
-    const double height = size.y() * unit;
-    if (unit != 1.0) {
+    const Unit unit = guess_unit(size.y());
+    const double height = size.y() * unit.metres;
+    if (unit.metres != 1.0) {
       char text[120];
-      std::snprintf(text, sizeof text, " is %.4g units tall: taken for %s", size.y(),
-                    unit == 1e-3 ? "millimetres" : "centimetres");
+      std::snprintf(text, sizeof text, " is %.4g units tall: taken for %s", size.y(), unit.name);
       result.warnings.push_back(path + text);
     }
     if (size.z() * 1.5 > size.y() || size.x() > 1.3 * size.y())
@@ -233,11 +264,15 @@ Result<Mannequin> import_mannequin(const std::string& path) {
     if (!(height >= 1.2 && height <= 2.4)) {
       char text[80];
       std::snprintf(text, sizeof text, "is %.4g units tall, which is no person's height", size.y());
-      return refuse("NOT_A_BODY", path, text, "Export it in metres, centimetres or millimetres.");
+      return refuse("NOT_A_BODY", path, text, "Export it in metres, centimetres, millimetres or inches.");
     }
     if (body::signed_volume(result.mesh) < 0)
       for (Triangle& t : result.mesh.triangles) std::swap(t[1], t[2]);
-    for (Vec3& v : result.mesh.vertices) v = unit * (v - Vec3(0, box.low.y(), 0));
+    for (Vec3& v : result.mesh.vertices) v = unit.metres * (v - Vec3(0, box.low.y(), 0));
+    if (faces_backwards(result.mesh, height)) {
+      for (Vec3& v : result.mesh.vertices) v = Vec3(-v.x(), v.y(), -v.z());
+      result.warnings.push_back(path + " points its feet to the back: turned around");
+    }
     const double volume = body::signed_volume(result.mesh);
     if (!(volume > 0.006 * height * height * height && volume < 0.06 * height * height * height))
       return refuse("NOT_A_BODY", path, "has a volume that no body of its height has",

@@ -9,138 +9,18 @@
 
 #include "mesh_check.hpp"
 #include "vitrine/mannequin.hpp"
+#include "voxels.hpp"
 
 namespace vitrine {
+
+using body::Facet;
+using body::Grid;
+using body::Surface;
 
 namespace {
 
 constexpr std::size_t most_voxels = std::size_t{1} << 27;  ///< 128 M: 0.5 GB of floats
 constexpr std::size_t most_triangles = 2'000'000;
-
-/// Point of the triangle a b c nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
-Vec3 nearest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const Vec3 bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
-  const Vec3 cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
-  const double denominator = va + vb + vc;
-  if (!(denominator > 0)) return a;
-  return a + vb / denominator * ab + vc / denominator * ac;
-}
-
-/// A triangle prepared for many questions, in floats about its own first corner: there 1e-7 is less than a nanometre.
-class Facet {
- public:
-  Facet(const Vec3& a, const Vec3& b, const Vec3& c) : a_(a) {
-    const Vec3 corner[3] = {Vec3::Zero(), b - a, c - a};
-    const Vec3 normal = corner[1].cross(corner[2]).normalized();
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 along = corner[(i + 1) % 3] - corner[i], out = along.cross(normal);
-      const double length2 = along.squaredNorm();
-      side_[i] = {corner[i].cast<float>(), along.cast<float>(), out.cast<float>(),
-                  length2 > 0 ? static_cast<float>(1 / length2) : 0.0F};
-    }
-    const Vec3 middle = (corner[1] + corner[2]) / 3;
-    for (const Vec3& at : corner) radius_ = std::max(radius_, static_cast<float>((at - middle).norm()));
-    middle_ = middle.cast<float>();
-    normal_ = normal.cast<float>();
-    // A triangle without area has only its edges.
-    if (!(normal.squaredNorm() > 0.5)) beyond_ = 1;
-  }
-
-  const Vec3& origin() const { return a_; }
-
-  /// Squared distances [m^2] of `count` points that begin at p, relative to origin(), and lie `step` apart along x. No
-  /// branches, so that the compiler works on several points at a time.
-  void distances2(const Eigen::Vector3f& p, float step, int count, float* out) const {
-    for (int k = 0; k < count; ++k) {
-      const float x = p.x() + step * static_cast<float>(k), y = p.y(), z = p.z();
-      const float h = normal_.x() * x + normal_.y() * y + normal_.z() * z;
-      float edges = std::numeric_limits<float>::max(), beyond = beyond_;
-      for (const Side& s : side_) {
-        const float u = x - s.corner.x(), v = y - s.corner.y(), w = z - s.corner.z();
-        float t = (u * s.along.x() + v * s.along.y() + w * s.along.z()) * s.per_length2;
-        t = t < 0.0F ? 0.0F : t;
-        t = t > 1.0F ? 1.0F : t;
-        const float du = u - t * s.along.x(), dv = v - t * s.along.y(), dw = w - t * s.along.z();
-        const float d = du * du + dv * dv + dw * dw, o = u * s.out.x() + v * s.out.y() + w * s.out.z();
-        edges = d < edges ? d : edges;
-        beyond = o > beyond ? o : beyond;
-      }
-      // Above the triangle itself, the way to its plane counts.
-      out[k] = beyond > 0.0F ? edges : h * h;
-    }
-  }
-
-  /// Of `count` points that begin at p, `step` apart along x: from which and before which one they can be closer than
-  /// `band` to the triangle, by its plane and by the ball around it.
-  std::array<int, 2> within(const Eigen::Vector3f& p, float step, int count, float band) const {
-    const Eigen::Vector3f d = p - middle_;
-    const float ball = (radius_ + band) * (radius_ + band) - d.y() * d.y() - d.z() * d.z();
-    if (ball <= 0) return {0, 0};
-    const float half = std::sqrt(ball);
-    float low = -d.x() - half, high = -d.x() + half;
-    const float height = normal_.dot(p), slope = normal_.x();
-    if (std::abs(slope) > 1e-3F) {
-      const float at = -height / slope, reach = band / std::abs(slope);
-      low = std::max(low, at - reach);
-      high = std::min(high, at + reach);
-    } else if (std::abs(height) > 2 * band) {
-      return {0, 0};
-    }
-    const float last = static_cast<float>(count);
-    return {static_cast<int>(std::clamp(std::ceil(low / step), 0.0F, last)),
-            static_cast<int>(std::clamp(std::floor(high / step) + 1, 0.0F, last))};
-  }
-
-  double distance2(const Vec3& p) const {
-    float d = 0;
-    distances2((p - a_).cast<float>(), 0, 1, &d);
-    return d;
-  }
-
- private:
-  struct Side {
-    Eigen::Vector3f corner, along, out;  ///< out: in the plane, away from the triangle
-    float per_length2 = 0;
-  };
-  Vec3 a_;
-  Eigen::Vector3f normal_, middle_;
-  float radius_ = 0, beyond_ = -1;
-  Side side_[3];
-};
-
-/// The body's mesh and its triangles once more, prepared.
-struct Surface {
-  explicit Surface(const TriMesh& m) : mesh(m) {
-    facets.reserve(m.triangles.size());
-    for (const Triangle& t : m.triangles) facets.emplace_back(m.vertices[t[0]], m.vertices[t[1]], m.vertices[t[2]]);
-  }
-  double distance2(const Vec3& p, std::int32_t t) const { return facets[static_cast<std::size_t>(t)].distance2(p); }
-  const TriMesh& mesh;
-  std::vector<Facet> facets;
-};
-
-struct Grid {
-  Vec3 origin;
-  double spacing;
-  std::array<int, 3> n;
-  std::size_t index(int x, int y, int z) const {
-    return x + static_cast<std::size_t>(n[0]) * (y + static_cast<std::size_t>(n[1]) * z);
-  }
-  Vec3 at(int x, int y, int z) const { return origin + spacing * Vec3(x, y, z); }
-};
 
 /// Exact distances up to `band` [m] from the surface and, where `nearest` is not empty, the triangles they lead to.
 void fill_band(const Surface& surface, const Grid& g, double band, std::vector<float>& distance,
@@ -218,10 +98,19 @@ void sweep(const Surface& body, const Grid& g, std::vector<float>& distance, std
   }
 }
 
-/// Inside or outside by counting crossings along each grid line in x: on a watertight mesh the count cannot be misled,
-/// provided that a line through an edge or corner meets it on one side only; the comparisons below are half-open.
-void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& distance) {
-  std::vector<std::vector<float>> crossing(static_cast<std::size_t>(g.n[1]) * g.n[2]);
+/// Where a grid line along x meets the surface.
+struct Crossing {
+  float x;  ///< [voxels]
+  int way;  ///< 1 into the body, -1 out of it
+  bool operator<(const Crossing& other) const { return x < other.x; }
+};
+
+/// Inside or outside by the winding number along each grid line in x: on a watertight mesh the count cannot be misled,
+/// provided that a line through an edge or corner meets it on one side only; the comparisons below are half-open. Where
+/// the mesh overlaps itself (a hand in a thigh) it is inside twice,
+/// which is inside; gives whether that was seen.
+bool sign_by_winding(const TriMesh& body, const Grid& g, std::vector<float>& distance) {
+  std::vector<std::vector<Crossing>> crossing(static_cast<std::size_t>(g.n[1]) * g.n[2]);
   for (const Triangle& t : body.triangles) {
     const Vec3 *a = &body.vertices[t[0]], *b = &body.vertices[t[1]], *c = &body.vertices[t[2]];
     const double low_y = std::min({a->y(), b->y(), c->y()}), high_y = std::max({a->y(), b->y(), c->y()});
@@ -232,12 +121,15 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
       // The triangle cut at this level: two points, each computed from its mesh edge alone (low vertex first), so the
       // neighbour over that edge gets the very same numbers.
       double cut_z[3], cut_x[3];
-      int cuts = 0;
+      int cuts = 0, rising = 0;  // rising: which cut the triangle's outline passes upwards
       const Vec3* corner[3] = {a, b, c};
       for (int i = 0; i < 3; ++i) {
         const Vec3 *p = corner[i], *q = corner[(i + 1) % 3];
         if ((p->y() >= level) == (q->y() >= level)) continue;
-        if (q->y() < p->y()) std::swap(p, q);
+        if (q->y() < p->y())
+          std::swap(p, q);
+        else
+          rising = cuts;
         const double f = (level - p->y()) / (q->y() - p->y());
         cut_z[cuts] = p->z() + f * (q->z() - p->z());
         cut_x[cuts++] = p->x() + f * (q->x() - p->x());
@@ -246,7 +138,9 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
       if (cut_z[0] > cut_z[1]) {
         std::swap(cut_z[0], cut_z[1]);
         std::swap(cut_x[0], cut_x[1]);
+        rising = 1 - rising;
       }
+      const int way = rising == 1 ? 1 : -1;  // upwards on its +z side: the triangle looks towards -x
       const int z0 = std::max(0, static_cast<int>(std::floor((cut_z[0] - g.origin.z()) / g.spacing)) - 1);
       const int z1 = std::min(g.n[2] - 1, static_cast<int>(std::ceil((cut_z[1] - g.origin.z()) / g.spacing)) + 1);
       for (int z = z0; z <= z1; ++z) {
@@ -254,20 +148,28 @@ void sign_by_parity(const TriMesh& body, const Grid& g, std::vector<float>& dist
         if ((cut_z[0] >= depth) == (cut_z[1] >= depth)) continue;
         const double f = (depth - cut_z[0]) / (cut_z[1] - cut_z[0]);
         crossing[y + static_cast<std::size_t>(g.n[1]) * z].push_back(
-            static_cast<float>((cut_x[0] + f * (cut_x[1] - cut_x[0]) - g.origin.x()) / g.spacing));
+            {static_cast<float>((cut_x[0] + f * (cut_x[1] - cut_x[0]) - g.origin.x()) / g.spacing), way});
       }
     }
   }
+  bool overlaps = false;
   for (int z = 0; z < g.n[2]; ++z)
     for (int y = 0; y < g.n[1]; ++y) {
-      std::vector<float>& line = crossing[y + static_cast<std::size_t>(g.n[1]) * z];
-      std::sort(line.begin(), line.end());
-      for (std::size_t i = 0; i + 1 < line.size(); i += 2) {
-        const int from = std::max(0, static_cast<int>(std::ceil(line[i])));
-        const int to = std::min(g.n[0] - 1, static_cast<int>(std::floor(line[i + 1])));
-        for (int x = from; x <= to; ++x) distance[g.index(x, y, z)] *= -1.0F;
+      std::vector<Crossing>& line = crossing[y + static_cast<std::size_t>(g.n[1]) * z];
+      std::stable_sort(line.begin(), line.end());
+      int winding = 0;
+      float in = 0;
+      for (const Crossing& c : line) {
+        if (winding == 0) in = c.x;
+        winding += c.way;
+        overlaps = overlaps || std::abs(winding) > 1;
+        if (winding != 0) continue;
+        const int from = std::max(0, static_cast<int>(std::ceil(in)));
+        const int to = std::min(g.n[0] - 1, static_cast<int>(std::floor(c.x)));
+        for (int x = from; x <= to; ++x) distance[g.index(x, y, z)] = -std::abs(distance[g.index(x, y, z)]);
       }
     }
+  return overlaps;
 }
 
 constexpr double band_voxels = 3;  ///< exact distances up to this many voxels from the surface: cloth lies within
@@ -346,7 +248,7 @@ Coarse make_coarse(const Surface& surface, const Grid& g) {
         c.foot[v] = (at - g.origin).cast<float>();
         c.distance[v] = static_cast<float>((at - p).norm());
       }
-  sign_by_parity(body, c.grid, c.distance);
+  sign_by_winding(body, c.grid, c.distance);
   return c;
 }
 
@@ -481,7 +383,8 @@ Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options)
   fill_band(surface, g, band, field.values, {});
   fill_far(make_coarse(surface, g), g, static_cast<float>(band), field.values);
   limit_slope(g, field.values);
-  sign_by_parity(body, g, field.values);
+  const bool overlaps = sign_by_winding(body, g, field.values);
+  field.patches = body::find_patches(surface, field, overlaps);
   return field;
 }
 

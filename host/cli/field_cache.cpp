@@ -43,10 +43,10 @@ class Hash {
 
 /// What stands before the values. Another layout or another way to fill voxels gets another magic.
 struct Header {
-  char magic[8] = {'V', 'I', 'T', 'F', 'L', 'D', '0', '1'};
+  char magic[8] = {'V', 'I', 'T', 'F', 'L', 'D', '0', '2'};
   std::uint64_t mesh = 0, values = 0;  ///< hashes
   double origin[3] = {0, 0, 0}, spacing = 0;
-  std::int32_t size[3] = {0, 0, 0}, unused = 0;
+  std::int32_t size[3] = {0, 0, 0}, overlaps = 0;
 };
 static_assert(sizeof(Header) == 72);
 
@@ -59,13 +59,16 @@ std::uint64_t hash_of(const TriMesh& mesh, const VoxelOptions& options) {
   return hash.value();
 }
 
-std::uint64_t hash_of(const std::vector<float>& values) {
+/// Over the header, whatever hash it holds already, and the values.
+std::uint64_t hash_of(Header header, const std::vector<float>& values) {
+  header.values = 0;
   Hash hash;
+  hash.add(&header, sizeof header);
   hash.add(values.data(), values.size() * sizeof(float));
   return hash.value();
 }
 
-bool load(const fs::path& file, std::uint64_t mesh, DistanceField& field) {
+bool load(const fs::path& file, const TriMesh& body, std::uint64_t mesh, DistanceField& field) {
   std::error_code problem;
   const std::uintmax_t bytes = fs::file_size(file, problem);
   std::ifstream in(file, std::ios::binary);
@@ -82,21 +85,24 @@ bool load(const fs::path& file, std::uint64_t mesh, DistanceField& field) {
   if (bytes != sizeof h + count * sizeof(float)) return false;
   field.values.resize(count);
   if (!in.read(reinterpret_cast<char*>(field.values.data()), static_cast<std::streamsize>(count * sizeof(float))) ||
-      hash_of(field.values) != h.values)
+      hash_of(h, field.values) != h.values)
     return false;
   field.origin = Vec3(h.origin[0], h.origin[1], h.origin[2]);
   field.spacing = h.spacing;
   std::copy_n(h.size, 3, field.size.begin());
+  // Found again faster than read, and then never other than the mesh's.
+  field.patches = find_patches(body, field, h.overlaps != 0);
   return true;
 }
 
 std::optional<Error> store(const fs::path& file, std::uint64_t mesh, const DistanceField& field) {
   Header h;
   h.mesh = mesh;
-  h.values = hash_of(field.values);
   std::copy_n(field.origin.data(), 3, h.origin);
   h.spacing = field.spacing;
   std::copy_n(field.size.begin(), 3, h.size);
+  h.overlaps = field.patches.overlaps ? 1 : 0;
+  h.values = hash_of(h, field.values);
   std::vector<std::uint8_t> bytes(sizeof h + field.values.size() * sizeof(float));
   std::memcpy(bytes.data(), &h, sizeof h);
   std::memcpy(bytes.data() + sizeof h, field.values.data(), field.values.size() * sizeof(float));
@@ -139,7 +145,7 @@ Result<DistanceField> cached_field(const TriMesh& mesh, const VoxelOptions& opti
   const fs::path file = fs::path(folder) / name;
   DistanceField found;
   std::error_code problem;
-  if (load(file, hash, found)) {
+  if (load(file, mesh, hash, found)) {
     fs::last_write_time(file, fs::file_time_type::clock::now(), problem);
     return found;
   }

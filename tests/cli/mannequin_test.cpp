@@ -77,6 +77,38 @@ TEST(MannequinCommand, names_the_measurement_that_a_file_lacks) {
   EXPECT_NE(run.text.find("\"arm\" is missing"), std::string::npos) << run.text;
 }
 
+TEST(MannequinCommand, refuses_broken_measurement_files_and_writes_nothing) {
+  const fs::path folder = scratch();
+  const auto refused = [&](const std::string& text, const std::string& reason) {
+    std::ofstream(folder / "m.json", std::ios::binary) << text;
+    const Outcome run =
+        run_vitrine("mannequin --measurements " + in_quotes(folder / "m.json") + " --out " + in_quotes(folder / "out"));
+    EXPECT_EQ(run.exit_code, 65) << text;
+    EXPECT_NE(run.text.find(reason), std::string::npos) << run.text;
+    EXPECT_FALSE(fs::exists(folder / "out")) << text;
+  };
+  const auto with = [](const char* name, const json& value) {
+    json m = usual();
+    m[name] = value;
+    return m.dump();
+  };
+  refused("", "not a JSON object");
+  refused("[]", "not a JSON object");
+  refused(std::string(100'000, '['), "not a JSON object");
+  refused(usual().dump().substr(0, 40), "not a JSON object");
+  refused("{\"sex\":\"woman\",\"height\":NaN}", "not a JSON object");
+  refused(with("arm", "long"), "\"arm\" is not a number");
+  refused(with("arm", nullptr), "\"arm\" is not a number");
+  refused(with("arm", true), "\"arm\" is not a number");
+  refused(with("sex", 3), "\"sex\" is not a text");
+  refused(with("sex", "robot"), "\"robot\" is not one of woman, man");
+  refused(with("shoe", 39), "unknown measurement \"shoe\"");
+  refused(with("arm", -5), "arm of -5 mm is outside");
+  // Metres for millimetres: the digits show it.
+  refused(with("height", 1.68), "height of 1.68 mm is outside 1400 to 2100 mm");
+  refused(with("height", 1e300), "height of 1e+300 mm is outside 1400 to 2100 mm");
+}
+
 TEST(MannequinCommand, measures_its_own_mesh_when_that_is_imported) {
   const fs::path folder = scratch();
   ASSERT_EQ(run_vitrine("mannequin --preset man-m --out " + in_quotes(folder / "built")).exit_code, 0);
@@ -121,12 +153,13 @@ TEST(MannequinCache, gives_the_same_garment_from_a_fresh_a_filled_and_a_damaged_
   const fs::path file = fs::directory_iterator(cache)->path();
   const std::string kept = slurp(file);
   EXPECT_EQ(convert("filled", with_cache), plain);
-  // One flipped bit in the values, a cut file, and a header that claims more than there is.
-  for (int damage = 0; damage < 3; ++damage) {
+  // One flipped bit in the values, a cut file, a header that claims more than there is, and one that lies elsewhere.
+  for (int damage = 0; damage < 4; ++damage) {
     std::string bytes = kept;
     if (damage == 0) bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
     if (damage == 1) bytes.resize(bytes.size() / 3);
     if (damage == 2) bytes[59] = 0x7f;
+    if (damage == 3) bytes[30] = static_cast<char>(bytes[30] ^ 1);  // of the grid's origin
     std::ofstream(file, std::ios::binary) << bytes;
     EXPECT_EQ(convert("damaged", with_cache), plain) << damage;
     EXPECT_EQ(slurp(file), kept) << damage;

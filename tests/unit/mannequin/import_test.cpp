@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iomanip>
 #include <sstream>
 
 #include "mesh_check.hpp"
@@ -59,6 +60,27 @@ TEST(ImportMannequin, guesses_metres_centimetres_and_millimetres_and_stands_the_
   }
 }
 
+TEST(ImportMannequin, takes_a_body_of_67_units_for_inches_and_one_of_five_for_nothing) {
+  const Result<Mannequin> body = import_mannequin(write_obj("inches", reference().mesh, 1 / 0.0254));
+  ASSERT_TRUE(body) << body.error().message;
+  EXPECT_NEAR(body->girths.at("height"), 1.72, 1e-3);
+  ASSERT_EQ(body->warnings.size(), 1u);
+  EXPECT_NE(body->warnings[0].find("inches"), std::string::npos);
+  expect_refused(write_obj("feet", reference().mesh, 1 / 0.3048), "NOT_A_BODY");
+}
+
+TEST(ImportMannequin, turns_around_a_body_whose_feet_point_to_the_back) {
+  TriMesh mesh = reference().mesh;
+  for (Vec3& v : mesh.vertices) v = Vec3(-v.x(), v.y(), -v.z());
+  const Result<Mannequin> turned = import_mannequin(write_obj("backwards", mesh));
+  const Result<Mannequin> straight = import_mannequin(write_obj("forwards", reference().mesh));
+  ASSERT_TRUE(turned && straight);
+  ASSERT_EQ(turned->warnings.size(), 1u);
+  EXPECT_NE(turned->warnings[0].find("turned around"), std::string::npos);
+  EXPECT_TRUE(straight->warnings.empty());
+  for (const auto& [name, girth] : straight->girths) EXPECT_NEAR(turned->girths.at(name), girth, 0.002) << name;
+}
+
 TEST(ImportMannequin, turns_an_inside_out_mesh) {
   TriMesh mesh = reference().mesh;
   for (Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
@@ -91,6 +113,40 @@ TEST(ImportMannequin, reads_a_ply) {
   const Result<Mannequin> body = import_mannequin(write_text("body.ply", ply.str()));
   ASSERT_TRUE(body) << body.error().message;
   EXPECT_EQ(body->mesh.triangles.size(), mesh.triangles.size());
+}
+
+TEST(ImportMannequin, measures_the_same_body_alike_from_obj_and_dae_in_any_unit_and_up_axis) {
+  const TriMesh& mesh = reference().mesh;
+  const Result<Mannequin> obj = import_mannequin(write_obj("as_obj", mesh));
+  ASSERT_TRUE(obj);
+  const auto dae = [&mesh](const char* name, double unit, bool z_up) {
+    std::ostringstream text;
+    text << std::setprecision(9)
+         << "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+         << "<asset><unit meter=\"" << unit << "\"/><up_axis>" << (z_up ? "Z_UP" : "Y_UP") << "</up_axis></asset>"
+         << "<library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\""
+         << 3 * mesh.vertices.size() << "\">";
+    for (const Vec3& v : mesh.vertices) {
+      const Vec3 p = (z_up ? Vec3(v.x(), -v.z(), v.y()) : v) / unit;
+      text << p.x() << ' ' << p.y() << ' ' << p.z() << ' ';
+    }
+    text << "</float_array><technique_common><accessor source=\"#a\" count=\"" << mesh.vertices.size()
+         << "\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" "
+         << "type=\"float\"/></accessor></technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+         << "source=\"#p\"/></vertices><triangles count=\"" << mesh.triangles.size()
+         << "\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>";
+    for (const Triangle& t : mesh.triangles) text << t[0] << ' ' << t[1] << ' ' << t[2] << ' ';
+    text
+        << "</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\"><node>"
+        << "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes><scene>"
+        << "<instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+    return import_mannequin(write_text(name, text.str()));
+  };
+  for (const Result<Mannequin>& body :
+       {dae("metres.dae", 1, false), dae("cm.dae", 0.01, false), dae("z.dae", 1, true)}) {
+    ASSERT_TRUE(body) << body.error().message;
+    for (const auto& [name, girth] : obj->girths) EXPECT_NEAR(body->girths.at(name), girth, 0.001) << name;
+  }
 }
 
 TEST(ImportMannequin, refuses_files_that_are_missing_or_no_mesh) {

@@ -125,6 +125,82 @@ TEST(Voxelise, is_negative_inside_and_positive_outside_a_body) {
     ASSERT_TRUE(((v - field->origin).array() >= 0.0799).all() && ((top - v).array() >= 0.0799).all());
 }
 
+/// Inside, by counting the triangles that a slanted ray from p meets.
+bool holds(const TriMesh& body, const Vec3& p) {
+  const Vec3 way = Vec3(0.6137, 0.2219, 0.7579).normalized();
+  int crossings = 0;
+  for (const Triangle& t : body.triangles) {
+    const Vec3 &a = body.vertices[t[0]], ab = body.vertices[t[1]] - a, ac = body.vertices[t[2]] - a;
+    const Vec3 across = way.cross(ac), from = p - a;
+    const double turn = ab.dot(across), u = from.dot(across) / turn;
+    if (!(u >= 0 && u <= 1)) continue;
+    const Vec3 around = from.cross(ab);
+    const double v = way.dot(around) / turn;
+    if (v >= 0 && u + v <= 1 && ac.dot(around) / turn > 0) ++crossings;
+  }
+  return crossings % 2 == 1;
+}
+
+TEST(Voxelise, tells_the_side_of_every_point_however_close_to_the_surface) {
+  const Result<Mannequin> body = build_mannequin({});
+  ASSERT_TRUE(body);
+  const TriMesh& mesh = body->mesh;
+  const Result<DistanceField> field = voxelise(mesh, {0.005, 0.03});
+  ASSERT_TRUE(field);
+  std::mt19937_64 random(9);
+  const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1.0p-53; };
+  for (int i = 0; i < 4000; ++i) {
+    const Triangle& t = mesh.triangles[random() % mesh.triangles.size()];
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    // Along the edges, where the surface folds and interpolation errs most; most points within half a millimetre.
+    const double along = unit(), aside = 0.1 * unit() * unit(), off = (2 * unit() - 1) * (i % 4 == 0 ? 5e-3 : 5e-4);
+    const Vec3 p = a + along * (b - a) + aside * (c - a) + off * (b - a).cross(c - a).normalized();
+    EXPECT_EQ(field->distance(p) < 0, holds(mesh, p)) << p.transpose() << " at " << field->distance(p);
+  }
+}
+
+TEST(Voxelise, counts_what_lies_inside_twice_as_inside_and_an_inside_out_mesh_as_the_right_way_round) {
+  // Two boxes that share their middle, as a hand that cuts into a thigh does.
+  TriMesh both = box_mesh(Vec3(0.10, 0.20, 0.10), Vec3::Zero());
+  const TriMesh second = box_mesh(Vec3(0.10, 0.20, 0.10), Vec3(0.063, 0.041, 0.027));
+  const auto base = static_cast<std::uint32_t>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), second.vertices.begin(), second.vertices.end());
+  for (const Triangle& t : second.triangles) both.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+  TriMesh turned = both;
+  for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
+  std::mt19937_64 random(4);
+  const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1.0p-53; };
+  for (const TriMesh& mesh : {both, turned}) {
+    const Result<DistanceField> field = voxelise(mesh, {0.01, 0.05});
+    ASSERT_TRUE(field);
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 p(0.4 * unit() - 0.17, 0.6 * unit() - 0.27, 0.4 * unit() - 0.18), q = p - Vec3(0.063, 0.041, 0.027);
+      const Vec3 half(0.10, 0.20, 0.10);
+      const double first = (p.cwiseAbs() - half).maxCoeff(), other = (q.cwiseAbs() - half).maxCoeff();
+      // Within a voxel of where two walls cross, triangles inside the body are taken for its surface.
+      const bool crossing = std::abs(first) < 0.012 && std::abs(other) < 0.012;
+      if (!crossing && std::abs(std::min(first, other)) > 1e-3) {
+        EXPECT_EQ(field->distance(p) < 0, std::min(first, other) < 0) << p.transpose();
+      }
+    }
+  }
+}
+
+TEST(Voxelise, finds_the_same_patches_again_for_kept_values) {
+  const TriMesh mesh = marched(sphere);
+  const Result<DistanceField> field = voxelise(mesh);
+  ASSERT_TRUE(field);
+  DistanceField kept = *field;
+  kept.patches = find_patches(mesh, kept, field->patches.overlaps);
+  EXPECT_GT(kept.patches.reach.size(), 1000u);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(-0.01, 0.01);
+  for (const Vec3& v : mesh.vertices) {
+    const Vec3 p = v + Vec3(unit(random), unit(random), unit(random));
+    EXPECT_EQ(kept.distance(p), field->distance(p));
+  }
+}
+
 TEST(Voxelise, sees_the_sign_right_when_vertices_lie_on_the_grid_lines) {
   // Every face, edge and corner of this box lies exactly on grid planes.
   const Result<DistanceField> field = voxelise(box_mesh(Vec3(0.25, 0.5, 0.125), Vec3::Zero()), {0.0625, 0.25});

@@ -38,12 +38,18 @@ struct VoxelOptions {
 Result<Mannequin> build_mannequin(const Measurements& measurements);
 
 /// Any watertight OBJ, GLB, PLY or DAE, front towards +Z (or standing along +Z, front towards -Y). Metres; a height of
-/// 140-220 is taken for centimetres, 1400-2200 for millimetres. What was guessed is in `warnings`. Landmarks and girths
+/// 140-220 is taken for centimetres, 1400-2200 for millimetres, 55-87 for inches; feet that point to the back turn it
+/// around. What was guessed is in `warnings`. Landmarks and girths
 /// are found on the mesh. Errors: MISSING_FILE (66); NOT_A_MESH, NOT_WATERTIGHT, NOT_A_BODY, TOO_LARGE (65).
 Result<Mannequin> import_mannequin(const std::string& path);
 
 /// Signed distance on voxels around the body (paper III.C): exact up to three voxels from the surface, beyond that
-/// interpolated between exact distances four voxels apart. Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
+/// interpolated between exact distances four voxels apart. Signs are exact up to 400,000 triangles; with more they are
+/// the interpolation's. Errors: NOT_WATERTIGHT, TOO_LARGE (65), BAD_OPTION (64).
 Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options = {});
+
+/// What `voxelise` puts into `patches`, for a field whose values were kept somewhere. `overlaps`: as it was in the
+/// field's patches.
+SurfacePatches find_patches(const TriMesh& body, const DistanceField& field, bool overlaps);
 
 }  // namespace vitrine
