@@ -9,13 +9,23 @@
 namespace vitrine {
 namespace {
 
-constexpr int kSamplesPerEdge = 24;
-constexpr double kInset = 0.012;         // [m] from the outline towards the panel, clear of hem shadows
-constexpr double kLargestGain = 0.12;    // what lighting explains
-constexpr double kLargestRatio = 0.30;   // beyond this the cloth itself differs
-constexpr double kLargestSpread = 0.12;  // median deviation of the ratios: print differs
+constexpr int kSamplesPerEdge = 48;
+constexpr double kInset = 0.008;           // [m] from the outline towards the panel, clear of the rim
+constexpr double kLargestGain = 1.45;      // of linear light: half a stop, what two shots of one session differ by
+constexpr double kLargestTint = 1.12;      // between channels: more is another colour, not another light
+constexpr double kLargestSpread = 0.25;    // median deviation of the ratios: print differs
+constexpr double kSmallestChange = 0.015;  // [-] below this the photo is left alone
 
-/// Colour a little inside the outline, `t` of the way along an edge; mean of 5x5 pixels.
+double linear(double v) {
+  const double c = v / 255.0;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+double encoded(double c) {
+  return 255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
+}
+
+/// Linear light a little inside the outline, `t` of the way along an edge; mean of 5x5 pixels.
 std::optional<std::array<double, 3>> colour_at(const Panel& panel, const Cutout& cut, const PanelEdge& edge, double t) {
   const int n = static_cast<int>(panel.outline.size());
   const int span = ((edge.last - edge.first) % n + n) % n;
@@ -30,9 +40,9 @@ std::optional<std::array<double, 3>> colour_at(const Panel& panel, const Cutout&
   std::array<double, 3> mean{};
   for (int dy = -2; dy <= 2; ++dy)
     for (int dx = -2; dx <= 2; ++dx)
-      for (int c = 0; c < 3; ++c) mean[c] += cut.rgb.at<cv::Vec3b>(y + dy, x + dx)[c] / 25.0;
+      for (int c = 0; c < 3; ++c) mean[c] += linear(cut.rgb.at<cv::Vec3b>(y + dy, x + dx)[c]) / 25.0;
   for (double v : mean)
-    if (v < 16 || v > 252) return std::nullopt;  // no light to compare, or clipped
+    if (v < 0.004 || v > 0.96) return std::nullopt;  // no light to compare, or clipped
   return mean;
 }
 
@@ -43,11 +53,12 @@ double median(std::vector<double> v) {
 
 }  // namespace
 
-void match_gain(std::span<const TextureSource> panels, std::vector<Cutout>& cuts) {
+std::array<double, 3> match_gain(std::span<const TextureSource> panels, std::vector<Cutout>& cuts) {
+  const std::array<double, 3> none{1, 1, 1};
   const std::size_t front = panels[0].panel->side == Side::front ? 0 : 1, back = 1 - front;
   const Panel& a = *panels[front].panel;
   const Panel& b = *panels[back].panel;
-  if (a.side == b.side || a.outline.size() < 3 || b.outline.size() < 3) return;
+  if (a.side == b.side || a.outline.size() < 3 || b.outline.size() < 3) return none;
   std::array<std::vector<double>, 3> ratios;
   for (const PanelEdge& ea : a.edges)
     for (const PanelEdge& eb : b.edges) {
@@ -59,23 +70,28 @@ void match_gain(std::span<const TextureSource> panels, std::vector<Cutout>& cuts
         for (int c = 0; c < 3; ++c) ratios[c].push_back((*ca)[c] / (*cb)[c]);
       }
     }
-  if (ratios[0].size() < 20) return;
+  if (ratios[0].size() < 20) return none;
   std::array<double, 3> gain{};
-  bool worth = false;
   for (int c = 0; c < 3; ++c) {
-    const double middle = median(ratios[c]);
+    gain[c] = median(ratios[c]);
     std::vector<double> deviation;
-    for (double r : ratios[c]) deviation.push_back(std::abs(r / middle - 1.0));
-    if (std::abs(middle - 1.0) > kLargestRatio || median(deviation) > kLargestSpread) return;
-    gain[c] = std::clamp(middle, 1.0 - kLargestGain, 1.0 + kLargestGain);
-    worth = worth || std::abs(gain[c] - 1.0) > 0.01;
+    for (double r : ratios[c]) deviation.push_back(std::abs(r / gain[c] - 1.0));
+    if (median(deviation) > kLargestSpread) return none;
   }
-  if (!worth) return;
-  for (int y = 0; y < cuts[back].rgb.rows; ++y)
-    for (int x = 0; x < cuts[back].rgb.cols; ++x) {
-      cv::Vec3b& p = cuts[back].rgb.at<cv::Vec3b>(y, x);
-      for (int c = 0; c < 3; ++c) p[c] = cv::saturate_cast<uchar>(p[c] * gain[c]);
-    }
+  const auto [low, high] = std::minmax_element(gain.begin(), gain.end());
+  if (*high > kLargestGain || *low < 1.0 / kLargestGain || *high / *low > kLargestTint) return none;
+  if (std::max(*high - 1.0, 1.0 - *low) < kSmallestChange) return none;
+  std::array<std::array<uchar, 256>, 3> table;
+  for (int c = 0; c < 3; ++c)
+    for (int v = 0; v < 256; ++v) table[c][v] = cv::saturate_cast<uchar>(encoded(std::min(1.0, gain[c] * linear(v))));
+  cv::Mat& rgb = cuts[back].rgb;
+  for (int y = 0; y < rgb.rows; ++y)
+    for (int x = 0; x < rgb.cols; ++x)
+      for (int c = 0; c < 3; ++c) {
+        uchar& v = rgb.at<cv::Vec3b>(y, x)[c];
+        v = table[c][v];
+      }
+  return gain;
 }
 
 }  // namespace vitrine
