@@ -3,6 +3,7 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Exporter.hpp>
 #include <cmath>
@@ -16,10 +17,10 @@ namespace vitrine {
 namespace {
 
 Error failed(const std::string& message) {
-  return {Cause::internal, "OBJ_FAILED", message, "Report this with the photos that caused it.", "export"};
+  return {Cause::internal, "MESH_FILE_FAILED", message, "Report this with the photos that caused it.", "export"};
 }
 
-/// OBJ shows colours as they are stored, a linear value has to be turned into sRGB for it.
+/// OBJ and PLY show colours as they are stored, a linear value has to be turned into sRGB for it.
 float to_srgb(double c) {
   return static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
 }
@@ -42,7 +43,7 @@ aiMesh* to_assimp(const RenderMesh& mesh, unsigned material) {
   if (!mesh.uv.empty()) {
     out->mNumUVComponents[0] = 2;
     out->mTextureCoords[0] = new aiVector3D[out->mNumVertices];
-    // OBJ counts v from the bottom of the picture.
+    // Both formats count v from the bottom of the picture.
     for (unsigned i = 0; i < out->mNumVertices; ++i)
       out->mTextureCoords[0][i] =
           aiVector3D(static_cast<float>(mesh.uv[i].x()), static_cast<float>(1.0 - mesh.uv[i].y()), 0.0F);
@@ -94,43 +95,85 @@ std::unique_ptr<aiScene> to_scene(std::span<const RenderMesh> meshes, const std:
   return scene;
 }
 
+/// What a format is called by assimp, and its file name ending.
+struct Writer {
+  const char* id;
+  const char* ending;
+};
+
+/// PLY has no field for a texture; readers (MeshLab, CloudCompare) take it from a comment in the header.
+Bytes with_texture_comment(std::span<const std::uint8_t> ply, const std::string& texture) {
+  Bytes out(ply.begin(), ply.end());
+  const std::string first = "ply\n", comment = "comment TextureFile " + texture + "\n";
+  if (!texture.empty() && out.size() > first.size() && std::equal(first.begin(), first.end(), out.begin())) {
+    // The format line has to come second.
+    const auto second = std::find(out.begin() + static_cast<std::ptrdiff_t>(first.size()), out.end(), '\n');
+    if (second != out.end()) out.insert(second + 1, comment.begin(), comment.end());
+  }
+  return out;
+}
+
+/// One file with what it refers to. What is referred to is written before what refers to it.
+std::optional<Error> write_scene(std::span<const RenderMesh> meshes, const Writer& writer, const std::string& folder,
+                                 const std::string& name) {
+  const std::filesystem::path base = std::filesystem::path(folder) / name;
+  std::vector<std::string> textures(meshes.size());
+  std::vector<Bytes> pictures(meshes.size());
+  std::string last;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (meshes[i].texture.empty()) continue;
+    auto png = encode_png(meshes[i].texture);
+    if (!png) return png.error();
+    pictures[i] = *std::move(png);
+    textures[i] = last = name + "_" + (meshes.size() == 1 ? "texture" : meshes[i].name) + ".png";
+  }
+  const auto scene = to_scene(meshes, textures);
+  Assimp::Exporter exporter;
+  // In memory first: assimp itself would leave half files behind on a full disk. The blob's name is what the OBJ calls
+  // its material file.
+  Assimp::ExportProperties properties;
+  properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, name);
+  const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), writer.id, 0, &properties);
+  if (!blob) return failed(std::string("assimp could not write ") + base.string() + ": " + exporter.GetErrorString());
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    if (!textures[i].empty())
+      if (auto error = write_file((std::filesystem::path(folder) / textures[i]).string(), pictures[i])) return error;
+  for (const aiExportDataBlob* part = blob->next; part; part = part->next)
+    if (auto error = write_file((std::filesystem::path(folder) / part->name.C_Str()).string(),
+                                std::span(static_cast<const std::uint8_t*>(part->data), part->size)))
+      return error;
+  const std::span bytes(static_cast<const std::uint8_t*>(blob->data), blob->size);
+  return write_file(base.string() + writer.ending, with_texture_comment(bytes, last));
+}
+
 }  // namespace
 
-std::optional<Error> write_obj(std::span<const RenderMesh> meshes, const std::string& folder, const std::string& name) {
+std::optional<Error> write_meshes(std::span<const RenderMesh> meshes, MeshFormat format, const std::string& folder,
+                                  const std::string& name) {
   if (auto error = check_meshes(meshes)) return error;
   if (name.empty() || name.find('/') != std::string::npos || name[0] == '.')
     return failed("\"" + name + "\" is not a file name.");
-  const std::filesystem::path base = std::filesystem::path(folder) / name;
   try {
-    std::vector<std::string> textures(meshes.size());
-    std::vector<Bytes> pictures(meshes.size());
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-      if (meshes[i].texture.empty()) continue;
-      auto png = encode_png(meshes[i].texture);
-      if (!png) return png.error();
-      pictures[i] = *std::move(png);
-      textures[i] = name + "_" + meshes[i].name + ".png";
-    }
-    const auto scene = to_scene(meshes, textures);
-    Assimp::Exporter exporter;
-    // In memory first: assimp itself would leave half files behind on a full disk. The blob's name is what the OBJ
-    // calls its material file.
-    Assimp::ExportProperties properties;
-    properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, name);
-    const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), "obj", 0, &properties);
-    if (!blob) return failed(std::string("assimp could not write the OBJ: ") + exporter.GetErrorString());
-    // What is referred to is written before what refers to it; the .obj comes last.
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-      if (!textures[i].empty())
-        if (auto error = write_file((std::filesystem::path(folder) / textures[i]).string(), pictures[i])) return error;
-    for (const aiExportDataBlob* part = blob->next; part; part = part->next)
-      if (auto error = write_file((std::filesystem::path(folder) / part->name.C_Str()).string(),
-                                  std::span(static_cast<const std::uint8_t*>(part->data), part->size)))
+    if (format == MeshFormat::obj) return write_scene(meshes, {"obj", ".obj"}, folder, name);
+    for (const RenderMesh& mesh : meshes)
+      if (auto error = write_scene(std::span(&mesh, 1), {"plyb", ".ply"}, folder,
+                                   meshes.size() == 1 ? name : name + "_" + mesh.name))
         return error;
-    return write_file(base.string() + ".obj", std::span(static_cast<const std::uint8_t*>(blob->data), blob->size));
+    return std::nullopt;
   } catch (const std::exception& e) {
-    return failed(std::string("The OBJ could not be made: ") + e.what());
+    return failed("The mesh could not be made: " + std::string(e.what()));
   }
+}
+
+std::string portable_name(const std::string& prefix, const std::string& text) {
+  std::string out = prefix;
+  if (!text.empty()) out += '_';
+  for (const unsigned char c : text) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    out += upper ? static_cast<char>(c + ('a' - 'A')) : plain ? static_cast<char>(c) : '-';
+  }
+  return out;
 }
 
 }  // namespace vitrine
