@@ -161,8 +161,8 @@ struct Pictures {
 
 /// All pictures at the highest quality at which together they keep the budget.
 Result<std::vector<Pictures>> encode_pictures(std::span<const RenderMesh> meshes, const GlbOptions& options) {
-  constexpr int step = 3;
-  for (int quality = options.jpeg_quality;; quality = std::max(options.lowest_quality, quality - step)) {
+  for (int quality = options.jpeg_quality;;
+       quality = std::max(options.lowest_quality, quality - options.quality_step)) {
     std::vector<Pictures> pictures;
     std::size_t bytes = 0;
     for (const RenderMesh& mesh : meshes) {
@@ -224,7 +224,8 @@ void add_mesh(Builder& b, const RenderMesh& whole, const Pictures& pictures) {
 
 Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, const GlbOptions& options) {
   if (auto error = check_meshes(meshes)) return *error;
-  if (options.lowest_quality < 1 || options.lowest_quality > options.jpeg_quality || options.jpeg_quality > 100)
+  if (options.lowest_quality < 1 || options.lowest_quality > options.jpeg_quality || options.jpeg_quality > 100 ||
+      options.quality_step < 1)
     return Error{Cause::usage, "BAD_QUALITY", "The JPEG qualities of a GLB are out of range.",
                  "Use 1 to 100, the lowest not above the highest.", "export"};
   const auto pictures = encode_pictures(meshes, options);

@@ -134,7 +134,8 @@ Result<Cutout> cut_out(const TextureSource& source, int margin) {
     out.keep |= hole & (left == 0);
     out.filled_share = cv::countNonZero(hole) / area;
   }
-  bleed(out.rgb, out.keep);
+  const cv::Mat whole = outside | out.keep;
+  bleed(out.rgb, out.keep, whole, depth_of(whole));
   return out;
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 // Lens blur, chroma subsampling and matting mix board and garment over this rim; chroma reaches furthest.
 constexpr float kRim = 6.0F;  // [px]
+// Where a second colour of the garment is looked for beside a rim pixel, and what makes it one.
+constexpr int kNext = 6;         // [px]
+constexpr double kOther = 25.0;  // [-] sRGB
 // Within this much of the border a shadow under the edge counts as board.
 constexpr float kShadowRim = 2.5F;  // [px]
 // Share of the board in a rim pixel from which it is taken for a mixture.
@@ -19,9 +22,12 @@ constexpr float kMixed = 0.08F;
 constexpr float kShadow = 0.6F;
 // Colours to compare with are taken from beyond the rim.
 constexpr float kClear = 7.0F;  // [px]
-// Bled colours come from a pixel further in than what was kept: a faint mixture spread over the whole bled zone would
-// show as a line.
-constexpr float kInset = 1.0F;  // [px]
+// Bled colours come from this far inside the border: a faint mixture spread over the whole bled zone would show as a
+// line.
+constexpr float kSource = 3.0F;  // [px]
+// A pixel at the very border that is this far from all of the garment's colours around it belongs to the board.
+constexpr int kAround = 6;         // [px]
+constexpr double kStrange = 30.0;  // [-] sRGB
 // Blur of the bled zone: near the panel just enough to break up streaks, further out wide.
 constexpr double kNearBlur = 1.6, kFarBlur = 6.0;  // [px]
 constexpr float kFarStart = 4.0F, kFarEnd = 12.0F;
@@ -61,6 +67,40 @@ cv::Mat board_colours(const cv::Mat& rgb, const cv::Mat& off) {
   return result;
 }
 
+/// Whether a colour is one of the garment's, or a mixture of two of them, with enough of the board in it.
+bool is_mixture(const cv::Vec3f& own, const cv::Vec3f& base, const cv::Vec3f& other, const cv::Vec3f& board) {
+  const cv::Vec3f way = board - base, change = own - base, across = other - base;
+  const float way2 = way.dot(way), across2 = across.dot(across), both = way.dot(across);
+  // Board and garment of the same colour: a mixture shows nothing.
+  if (way2 < 12.0F * 12.0F) return false;
+  float share = change.dot(way) / way2, along = 0;
+  const float det = way2 * across2 - both * both;
+  if (det > 0.02F * way2 * across2) {
+    along = std::clamp((change.dot(across) * way2 - change.dot(way) * both) / det, 0.0F, 1.0F);
+    share = (change - along * across).dot(way) / way2;
+  }
+  // Off the way lies the garment's own piping or stitching.
+  const cv::Vec3f beside = change - share * way - along * across;
+  return share > kMixed && beside.dot(beside) < 0.25F * share * share * way2 + 15.0F * 15.0F;
+}
+
+/// Whether none of the garment's own pixels around has such a colour, and the one most like it lies towards the board.
+bool is_strange(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, const cv::Vec3f& board) {
+  const cv::Vec3f own(rgb.at<cv::Vec3b>(y, x));
+  double best = 1e9;
+  cv::Vec3f like;
+  for (int v = std::max(0, y - kAround); v <= std::min(rgb.rows - 1, y + kAround); ++v)
+    for (int u = std::max(0, x - kAround); u <= std::min(rgb.cols - 1, x + kAround); ++u) {
+      if (!sources.at<uchar>(v, u)) continue;
+      const cv::Vec3f other(rgb.at<cv::Vec3b>(v, u));
+      const double difference = cv::norm(other - own);
+      if (difference >= best) continue;
+      best = difference;
+      like = other;
+    }
+  return best < 1e9 && best > kStrange && (own - like).dot(board - like) > 0;
+}
+
 }  // namespace
 
 cv::Mat nearest_pixel(const cv::Mat& seeds, cv::Mat& distance) {
@@ -87,7 +127,7 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
   const bool any = cv::countNonZero(clear) > 0;
   const cv::Mat board = any ? nearest_pixel(clear, distance) : cv::Mat(rgb.size(), CV_32SC1, cv::Scalar(-1));
   const cv::Mat smooth = any ? board_colours(rgb, clear) : rgb;
-  const cv::Mat whole = keep.clone();
+  const cv::Mat whole = keep.clone(), sources = deep_pixels(whole, depth, kSource);
   // From outside in: a pixel counts as mixed only if its neighbour further out is, so that the garment's own binding of
   // a colour between cloth and board stays.
   std::vector<std::pair<float, int>> order;
@@ -109,23 +149,26 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
     const cv::Vec3f base(pixel_at(rgb, inner)), own(rgb.at<cv::Vec3b>(y, x));
     if (d <= kShadowRim && brightness(own) < kShadow * brightness(base)) keep.at<uchar>(y, x) = 0;
     if (outer < 0) continue;
-    const cv::Vec3f way = cv::Vec3f(pixel_at(smooth, outer)) - base, change = own - base;
-    const float way2 = way.dot(way);
-    // Board and garment of the same colour: a mixture shows nothing.
-    if (way2 < 12.0F * 12.0F) continue;
-    const float share = change.dot(way) / way2;
-    // Off the way lies the garment's own piping or stitching.
-    const cv::Vec3f beside = change - share * way;
-    if (share > kMixed && beside.dot(beside) < 0.25F * share * share * way2 + 15.0F * 15.0F) keep.at<uchar>(y, x) = 0;
+    const cv::Vec3f ground(pixel_at(smooth, outer));
+    bool mixed = is_mixture(own, base, base, ground);
+    // Between two stripes all three colours mix.
+    for (const auto& [dx, dy] :
+         {std::pair(kNext, 0), std::pair(-kNext, 0), std::pair(0, kNext), std::pair(0, -kNext)}) {
+      const int u = x + dx, v = y + dy;
+      if (mixed || u < 0 || v < 0 || u >= rgb.cols || v >= rgb.rows) continue;
+      const cv::Vec3f other(pixel_at(rgb, garment.at<int>(v, u)));
+      if (cv::norm(other - base) > kOther) mixed = is_mixture(own, base, other, ground);
+    }
+    if (!mixed && d <= kShadowRim) mixed = is_strange(rgb, sources, x, y, ground);
+    if (mixed) keep.at<uchar>(y, x) = 0;
   }
 }
 
-void bleed(cv::Mat& rgb, const cv::Mat& keep) {
-  cv::Mat padded, depth, distance;
-  cv::copyMakeBorder(keep, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
-  cv::distanceTransform(padded, depth, cv::DIST_L2, cv::DIST_MASK_5);
-  depth = depth(cv::Rect(cv::Point(1, 1), keep.size())).clone();
-  const cv::Mat garment = nearest_pixel(deep_pixels(keep, depth, kInset), distance);
+void bleed(cv::Mat& rgb, const cv::Mat& keep, const cv::Mat& whole, const cv::Mat& depth) {
+  cv::Mat distance;
+  cv::Mat seeds = deep_pixels(whole, depth, kSource) & keep;
+  if (cv::countNonZero(seeds) == 0) seeds = keep;
+  const cv::Mat garment = nearest_pixel(seeds, distance);
   cv::Mat filled = rgb.clone();
   for (int y = 0; y < rgb.rows; ++y)
     for (int x = 0; x < rgb.cols; ++x)

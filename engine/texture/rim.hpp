@@ -12,8 +12,9 @@ cv::Mat nearest_pixel(const cv::Mat& seeds, cv::Mat& distance);
 /// line along every seam. `off` marks what is certainly not garment; `depth` is each pixel's distance to the border.
 void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::Mat& keep);
 
-/// Everything that is not kept takes the nearest kept colour from a little inside the edge, blurred more the further it
-/// lies.
-void bleed(cv::Mat& rgb, const cv::Mat& keep);
+/// Everything that is not kept takes the nearest kept colour from a little inside the border, blurred more the further
+/// it lies. `whole` are the garment's pixels before the rim was dropped, or filled since; `depth` their distance to the
+/// border.
+void bleed(cv::Mat& rgb, const cv::Mat& keep, const cv::Mat& whole, const cv::Mat& depth);
 
 }  // namespace vitrine

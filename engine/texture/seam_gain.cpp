@@ -10,11 +10,12 @@ namespace vitrine {
 namespace {
 
 constexpr int kSamplesPerEdge = 48;
-constexpr double kInset = 0.008;           // [m] from the outline towards the panel, clear of the rim
-constexpr double kLargestGain = 1.45;      // of linear light: half a stop, what two shots of one session differ by
-constexpr double kLargestTint = 1.12;      // between channels: more is another colour, not another light
-constexpr double kLargestSpread = 0.25;    // median deviation of the ratios: print differs
-constexpr double kSmallestChange = 0.015;  // [-] below this the photo is left alone
+constexpr double kInset = 0.008;         // [m] from the outline towards the panel, clear of the rim
+constexpr double kLargestGain = 1.45;    // of linear light: half a stop, what two shots of one session differ by
+constexpr double kLargestTint = 1.12;    // between channels: more is another colour, not another light
+constexpr double kLargestSpread = 0.25;  // median deviation of the ratios: print differs
+constexpr double kModeWidth = 0.15, kModeShare = 0.3;  // a ground colour: this share of the points within that of it
+constexpr double kSmallestChange = 0.015;              // [-] below this the photo is left alone
 
 double linear(double v) {
   const double c = v / 255.0;
@@ -51,6 +52,35 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
+/// The median, where half of the values lie within `spread` of it.
+std::optional<double> steady_middle(const std::vector<double>& values, double spread) {
+  const double middle = median(values);
+  std::vector<double> deviation;
+  for (const double v : values) deviation.push_back(std::abs(v / middle - 1.0));
+  if (median(deviation) > spread) return std::nullopt;
+  return middle;
+}
+
+/// The value around which a sample is densest, in shares (half-sample mode, Robertson and Cryer 1974), where enough of
+/// the sample lies close to it.
+std::optional<double> steady_mode(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  std::size_t first = 0, count = values.size();
+  while (count > 2) {
+    const std::size_t half = (count + 1) / 2;
+    std::size_t best = first;
+    for (std::size_t i = first; i + half <= first + count; ++i)
+      if (values[i + half - 1] / values[i] < values[best + half - 1] / values[best]) best = i;
+    first = best;
+    count = half;
+  }
+  const double mode = 0.5 * (values[first] + values[first + count - 1]);
+  const auto close =
+      std::count_if(values.begin(), values.end(), [&](double v) { return std::abs(v / mode - 1.0) < kModeWidth; });
+  if (static_cast<double>(close) < kModeShare * static_cast<double>(values.size())) return std::nullopt;
+  return mode;
+}
+
 }  // namespace
 
 std::array<double, 3> match_gain(std::span<const TextureSource> panels, std::vector<Cutout>& cuts) {
@@ -59,7 +89,7 @@ std::array<double, 3> match_gain(std::span<const TextureSource> panels, std::vec
   const Panel& a = *panels[front].panel;
   const Panel& b = *panels[back].panel;
   if (a.side == b.side || a.outline.size() < 3 || b.outline.size() < 3) return none;
-  std::array<std::vector<double>, 3> ratios;
+  std::array<std::vector<double>, 3> ratios, fronts, backs;
   for (const PanelEdge& ea : a.edges)
     for (const PanelEdge& eb : b.edges) {
       if (ea.template_edge != eb.template_edge) continue;
@@ -67,16 +97,24 @@ std::array<double, 3> match_gain(std::span<const TextureSource> panels, std::vec
         const double t = static_cast<double>(i) / kSamplesPerEdge;
         const auto ca = colour_at(a, cuts[front], ea, t), cb = colour_at(b, cuts[back], eb, t);
         if (!ca || !cb) continue;
-        for (int c = 0; c < 3; ++c) ratios[c].push_back((*ca)[c] / (*cb)[c]);
+        for (int c = 0; c < 3; ++c) {
+          ratios[c].push_back((*ca)[c] / (*cb)[c]);
+          fronts[c].push_back((*ca)[c]);
+          backs[c].push_back((*cb)[c]);
+        }
       }
     }
   if (ratios[0].size() < 20) return none;
   std::array<double, 3> gain{};
   for (int c = 0; c < 3; ++c) {
-    gain[c] = median(ratios[c]);
-    std::vector<double> deviation;
-    for (double r : ratios[c]) deviation.push_back(std::abs(r / gain[c] - 1.0));
-    if (median(deviation) > kLargestSpread) return none;
+    auto found = steady_middle(ratios[c], kLargestSpread);
+    if (!found) {
+      // Where a print meets another part of it at the seam, points do not compare; the commonest colour still does.
+      const auto front_ground = steady_mode(fronts[c]), back_ground = steady_mode(backs[c]);
+      if (!front_ground || !back_ground) return none;
+      found = *front_ground / *back_ground;
+    }
+    gain[c] = *found;
   }
   const auto [low, high] = std::minmax_element(gain.begin(), gain.end());
   if (*high > kLargestGain || *low < 1.0 / kLargestGain || *high / *low > kLargestTint) return none;
