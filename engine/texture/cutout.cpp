@@ -17,9 +17,10 @@ namespace {
 constexpr double kLargestOverhang = 512;  // [px]
 constexpr int kLargestSide = 1 << 15;     // [px]
 // Places that are not kept and wider than twice this are filled with cloth; narrower ones take the edge's colours.
-constexpr float kWide = 8.0F;  // [px]
+constexpr float kWide = 8.0F;   // [px]
+constexpr double kHem = 0.025;  // [m]
 // Around the inside of the back lies the neckline's binding.
-constexpr double kBinding = 0.03;  // [m]
+constexpr double kBinding = 0.045;  // [m]
 
 Error internal(const std::string& message) {
   return {Cause::internal, "BAD_TEXTURE_SOURCE", message, "Report this with the photos that caused it.", "texture"};
@@ -130,7 +131,11 @@ Result<Cutout> cut_out(const TextureSource& source, int margin) {
     cv::Mat reach;
     cv::dilate(deep, reach, cv::getStructuringElement(cv::MORPH_ELLIPSE, {25, 25}));
     const cv::Mat hole = missing & reach;
-    const cv::Mat left = fill_with_cloth(out.rgb, hole, out.keep);
+    // Bindings and hems belong to their border and are copied only where there is nothing else.
+    const cv::Mat inner = depth_of(out.keep) > kHem * out.density;
+    cv::Mat left = fill_with_cloth(out.rgb, hole, out.keep, inner);
+    const cv::Mat known = out.keep | (hole & (left == 0));
+    left = fill_with_cloth(out.rgb, left, known, out.keep);
     out.keep |= hole & (left == 0);
     out.filled_share = cv::countNonZero(hole) / area;
   }

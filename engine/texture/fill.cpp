@@ -2,6 +2,7 @@
 #include "fill.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -12,6 +13,11 @@ namespace {
 constexpr int kRing = 3;           // [px] of surroundings that are compared
 constexpr int kOffsets = 4000;     // tried for a block, about
 constexpr int kRingSamples = 160;  // pixels compared for each
+// What the block would show counts where it differs from its surroundings: a stray mark is not to be copied.
+constexpr double kMarkWeight = 0.3;
+constexpr int kMarkSamples = 6;  // to each side of a block
+// Steps that differ from the usual one by more come from pattern that does not meet, not from light.
+constexpr float kOddStep = 30.0F;  // [-] sRGB
 // A step of the mean is mended by the membrane, a difference in pattern is not.
 constexpr double kStepWeight = 0.15;
 
@@ -68,6 +74,26 @@ struct Choice {
   double cost = std::numeric_limits<double>::infinity();
 };
 
+/// How far a place's colours lie from the nearest of its own surroundings, squared and averaged.
+double strangeness(const cv::Mat& rgb, const std::vector<cv::Point>& ring, const cv::Rect& there,
+                   const cv::Point& offset) {
+  double sum = 0;
+  for (int j = 0; j < kMarkSamples; ++j)
+    for (int i = 0; i < kMarkSamples; ++i) {
+      const cv::Vec3b& own = rgb.at<cv::Vec3b>(there.y + (2 * j + 1) * there.height / (2 * kMarkSamples),
+                                               there.x + (2 * i + 1) * there.width / (2 * kMarkSamples));
+      int best = 3 * 255 * 255;
+      for (std::size_t k = 0; k < ring.size(); k += 4) {
+        const cv::Vec3b& other = rgb.at<cv::Vec3b>(ring[k] + offset);
+        int squares = 0;
+        for (int c = 0; c < 3; ++c) squares += (own[c] - other[c]) * (own[c] - other[c]);
+        best = std::min(best, squares);
+      }
+      sum += best;
+    }
+  return sum / (kMarkSamples * kMarkSamples);
+}
+
 /// The offset at which the cloth looks most like the block's known surroundings.
 Choice find_source(const cv::Mat& rgb, const std::vector<cv::Point>& ring, const cv::Rect& box, const Counter& cloth) {
   Choice best;
@@ -89,7 +115,9 @@ Choice find_source(const cv::Mat& rgb, const std::vector<cv::Point>& ring, const
     }
     const double n = static_cast<double>(ring.size());
     const double mean = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (n * n);
-    const double cost = squares / n - (1.0 - kStepWeight) * mean;
+    double cost = squares / n - (1.0 - kStepWeight) * mean;
+    if (cost >= best.cost) return;
+    cost += kMarkWeight * strangeness(rgb, ring, there, offset);
     if (cost < best.cost) best = {offset, cost};
   };
   for (int top = 0; top + box.height <= all.height; top += step)
@@ -117,8 +145,21 @@ bool fill_block(cv::Mat& rgb, cv::Mat& known, const cv::Rect& block, const cv::M
   if (source.cost == std::numeric_limits<double>::infinity()) return false;
   cv::Mat3f step(box.size(), cv::Vec3f::all(0));
   cv::Mat1f weight(box.size(), 0.0F);
+  std::array<std::vector<float>, 3> steps;
   for (const cv::Point& p : around) {
-    step(p - box.tl()) = cv::Vec3f(rgb.at<cv::Vec3b>(p)) - cv::Vec3f(rgb.at<cv::Vec3b>(p + source.offset));
+    const cv::Vec3f d = cv::Vec3f(rgb.at<cv::Vec3b>(p)) - cv::Vec3f(rgb.at<cv::Vec3b>(p + source.offset));
+    step(p - box.tl()) = d;
+    for (int c = 0; c < 3; ++c) steps[c].push_back(d[c]);
+  }
+  cv::Vec3f usual;
+  for (int c = 0; c < 3; ++c) {
+    const auto middle = steps[c].begin() + static_cast<std::ptrdiff_t>(steps[c].size() / 2);
+    std::nth_element(steps[c].begin(), middle, steps[c].end());
+    usual[c] = *middle;
+  }
+  for (const cv::Point& p : around) {
+    cv::Vec3f& d = step(p - box.tl());
+    if (cv::norm(d - usual, cv::NORM_INF) > kOddStep) d = usual;
     weight(p - box.tl()) = 1;
   }
   const cv::Mat3f bent = membrane(step, weight);
@@ -135,11 +176,12 @@ bool fill_block(cv::Mat& rgb, cv::Mat& known, const cv::Rect& block, const cv::M
 
 }  // namespace
 
-cv::Mat fill_with_cloth(cv::Mat& rgb, const cv::Mat& hole, const cv::Mat& cloth) {
+cv::Mat fill_with_cloth(cv::Mat& rgb, const cv::Mat& hole, const cv::Mat& kept, const cv::Mat& cloth) {
   cv::Mat left = hole != 0;
   if (cv::countNonZero(left) == 0) return left;
-  cv::Mat known = (cloth != 0) & (left == 0);
-  const Counter counter(known);
+  cv::Mat known = (kept != 0) & (left == 0);
+  const cv::Mat sources = (cloth != 0) & known;
+  const Counter counter(sources);
   // Large blocks keep the pattern, small ones find room in narrow parts.
   const int widest = std::clamp(std::min(rgb.cols, rgb.rows) / 8, 8, 64);
   for (int side = widest; side >= std::max(6, widest / 4) && cv::countNonZero(left) > 0; side /= 2) {

@@ -56,6 +56,26 @@ void each_texel(const std::array<Vec2, 3>& corner, int width, int height, F&& vi
     }
 }
 
+/// One value for each vertex; two averages over neighbours take the rays' noise.
+std::vector<float> vertex_openness(const Tracer& tracer, const RenderMesh& mesh, const OcclusionOptions& options) {
+  std::vector<float> open(mesh.positions.size());
+  for (std::size_t v = 0; v < open.size(); ++v)
+    open[v] = static_cast<float>(openness(tracer, mesh.positions[v] + kLift * mesh.normals[v], mesh.normals[v],
+                                          Sequence(static_cast<std::uint32_t>(v), 0, 12), options));
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<float> sum(open.size(), 0.0F), count(open.size(), 0.0F);
+    for (const Triangle& t : mesh.triangles)
+      for (const std::uint32_t v : t)
+        for (const std::uint32_t w : t) {
+          sum[v] += open[w];
+          count[v] += 1.0F;
+        }
+    for (std::size_t v = 0; v < open.size(); ++v)
+      if (count[v] > 0) open[v] = sum[v] / count[v];
+  }
+  return open;
+}
+
 }  // namespace
 
 std::optional<Error> bake_occlusion(RenderMesh& garment, RenderMesh& mannequin, const OcclusionOptions& options) {
@@ -110,12 +130,7 @@ std::optional<Error> bake_occlusion(RenderMesh& garment, RenderMesh& mannequin, 
     for (int x = 0; x < width; ++x)
       *garment.occlusion.at(x, y) = cv::saturate_cast<uchar>(255.0F * of_label[labels.at<int>(y, x)]);
 
-  mannequin.shade.assign(mannequin.positions.size(), 1.0F);
-  for (std::size_t v = 0; v < mannequin.positions.size(); ++v) {
-    const Vec3& n = mannequin.normals[v];
-    mannequin.shade[v] = static_cast<float>(openness(*tracer, mannequin.positions[v] + kLift * n, n,
-                                                     Sequence(static_cast<std::uint32_t>(v), 0, 12), options));
-  }
+  mannequin.shade = vertex_openness(*tracer, mannequin, options);
   return std::nullopt;
 }
 

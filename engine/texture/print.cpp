@@ -11,8 +11,8 @@ namespace {
 
 // The band that shows the cloth: behind bindings and hems, before a print on the chest begins.
 constexpr double kBandStart = 0.030, kBandEnd = 0.075;  // [m] from the border
-constexpr double kShallow = 0.45;      // lightness differences count less: folds and falloff are no print
-constexpr double kDifferent = 11.0;    // [Lab, lightness shallow] from every colour of the band
+constexpr double kShallow = 0.6;       // lightness differences count less: folds and falloff are no print
+constexpr double kDifferent = 10.0;    // [Lab, lightness shallow] from every colour of the band
 constexpr double kCommon = 0.004;      // share of the band from which a colour is the cloth's
 constexpr double kLargestShare = 0.5;  // of the panel; beyond, the band is the exception and not the print
 constexpr double kSpeck = 0.004;       // [m] smaller marks are weave, dust or buttons
@@ -75,7 +75,8 @@ cv::Mat find_print(const cv::Mat& rgb, const cv::Mat& panel, const cv::Mat& dept
                                      [&](const Colour& other) { return difference(own, other) < kDifferent; });
       if (!known) print.at<uchar>(y, x) = 255;
     }
-  cv::morphologyEx(print, print, cv::MORPH_OPEN, disc(0.5 * kSpeck * density / 2));
+  if (const double radius = kSpeck * density / 4; radius >= 1)
+    cv::morphologyEx(print, print, cv::MORPH_OPEN, disc(radius));
   cv::morphologyEx(print, print, cv::MORPH_CLOSE, disc(kGap * density / 2));
   cv::Mat labels, figures, middles;
   const int parts = cv::connectedComponentsWithStats(print, labels, figures, middles, 8, CV_32S);

@@ -16,6 +16,9 @@ constexpr int kNext = 6;         // [px]
 constexpr double kOther = 25.0;  // [-] sRGB
 // Within this much of the border a shadow under the edge counts as board.
 constexpr float kShadowRim = 2.5F;  // [px]
+// Where the outline was seen a little too wide, whole pixels of board follow; they go as deep as this.
+constexpr float kDeepRim = 14.0F;      // [px]
+constexpr float kMostlyBoard = 0.25F;  // share of the board from which a pixel this deep is taken for it
 // Share of the board in a rim pixel from which it is taken for a mixture.
 constexpr float kMixed = 0.08F;
 // A rim pixel this much darker than the cloth behind it lies in the gap under the edge.
@@ -68,7 +71,8 @@ cv::Mat board_colours(const cv::Mat& rgb, const cv::Mat& off) {
 }
 
 /// Whether a colour is one of the garment's, or a mixture of two of them, with enough of the board in it.
-bool is_mixture(const cv::Vec3f& own, const cv::Vec3f& base, const cv::Vec3f& other, const cv::Vec3f& board) {
+bool is_mixture(const cv::Vec3f& own, const cv::Vec3f& base, const cv::Vec3f& other, const cv::Vec3f& board,
+                float least = kMixed) {
   const cv::Vec3f way = board - base, change = own - base, across = other - base;
   const float way2 = way.dot(way), across2 = across.dot(across), both = way.dot(across);
   // Board and garment of the same colour: a mixture shows nothing.
@@ -81,7 +85,7 @@ bool is_mixture(const cv::Vec3f& own, const cv::Vec3f& base, const cv::Vec3f& ot
   }
   // Off the way lies the garment's own piping or stitching.
   const cv::Vec3f beside = change - share * way - along * across;
-  return share > kMixed && beside.dot(beside) < 0.25F * share * share * way2 + 15.0F * 15.0F;
+  return share > least && beside.dot(beside) < 0.25F * share * share * way2 + 15.0F * 15.0F;
 }
 
 /// Whether none of the garment's own pixels around has such a colour, and the one most like it lies towards the board.
@@ -121,6 +125,7 @@ cv::Mat nearest_pixel(const cv::Mat& seeds, cv::Mat& distance) {
 void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::Mat& keep) {
   cv::Mat distance, off_distance;
   const cv::Mat garment = nearest_pixel(deep_pixels(keep, depth, kClear), distance);
+  const cv::Mat deepest = nearest_pixel(deep_pixels(keep, depth, kDeepRim + 1), distance);
   cv::Mat not_garment = keep == 0;
   cv::distanceTransform(not_garment, off_distance, cv::DIST_L2, cv::DIST_MASK_5);
   const cv::Mat clear = (off_distance > 2.0) & off;
@@ -133,7 +138,7 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
   std::vector<std::pair<float, int>> order;
   for (int y = 0; y < rgb.rows; ++y)
     for (int x = 0; x < rgb.cols; ++x)
-      if (whole.at<uchar>(y, x) && depth.at<float>(y, x) <= kRim)
+      if (whole.at<uchar>(y, x) && depth.at<float>(y, x) <= kDeepRim)
         order.emplace_back(depth.at<float>(y, x), y * rgb.cols + x);
   std::sort(order.begin(), order.end());
   for (const auto& [d, index] : order) {
@@ -150,6 +155,11 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
     if (d <= kShadowRim && brightness(own) < kShadow * brightness(base)) keep.at<uchar>(y, x) = 0;
     if (outer < 0) continue;
     const cv::Vec3f ground(pixel_at(smooth, outer));
+    if (const int far = deepest.at<int>(y, x); far >= 0 && far != index) {
+      const cv::Vec3f cloth(pixel_at(rgb, far));
+      if (is_mixture(own, cloth, cloth, ground, kMostlyBoard)) keep.at<uchar>(y, x) = 0;
+    }
+    if (d > kRim) continue;
     bool mixed = is_mixture(own, base, base, ground);
     // Between two stripes all three colours mix.
     for (const auto& [dx, dy] :
