@@ -30,6 +30,7 @@ constexpr float kClear = 7.0F;  // [px]
 constexpr float kSource = 3.0F;  // [px]
 // A pixel at the very border that is this far from all of the garment's colours around it belongs to the board.
 constexpr int kAround = 6;         // [px]
+constexpr double kUnlike = 12.0;   // [-] sRGB from which a mixture counts
 constexpr double kStrange = 30.0;  // [-] sRGB
 // Blur of the bled zone: near the panel just enough to break up streaks, further out wide.
 constexpr double kNearBlur = 1.6, kFarBlur = 6.0;  // [px]
@@ -88,21 +89,29 @@ bool is_mixture(const cv::Vec3f& own, const cv::Vec3f& base, const cv::Vec3f& ot
   return share > least && beside.dot(beside) < 0.25F * share * share * way2 + 15.0F * 15.0F;
 }
 
-/// Whether none of the garment's own pixels around has such a colour, and the one most like it lies towards the board.
-bool is_strange(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, const cv::Vec3f& board) {
+/// The garment's colour most like a pixel's own, among `sources` around it.
+struct Likeness {
+  double difference = 1e9;  ///< [-] sRGB; as large as this where there are no sources
+  cv::Vec3f colour;
+};
+Likeness most_alike(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, int reach) {
   const cv::Vec3f own(rgb.at<cv::Vec3b>(y, x));
-  double best = 1e9;
-  cv::Vec3f like;
-  for (int v = std::max(0, y - kAround); v <= std::min(rgb.rows - 1, y + kAround); ++v)
-    for (int u = std::max(0, x - kAround); u <= std::min(rgb.cols - 1, x + kAround); ++u) {
+  Likeness best;
+  for (int v = std::max(0, y - reach); v <= std::min(rgb.rows - 1, y + reach); ++v)
+    for (int u = std::max(0, x - reach); u <= std::min(rgb.cols - 1, x + reach); ++u) {
       if (!sources.at<uchar>(v, u)) continue;
       const cv::Vec3f other(rgb.at<cv::Vec3b>(v, u));
       const double difference = cv::norm(other - own);
-      if (difference >= best) continue;
-      best = difference;
-      like = other;
+      if (difference < best.difference) best = {difference, other};
     }
-  return best < 1e9 && best > kStrange && (own - like).dot(board - like) > 0;
+  return best;
+}
+
+/// Whether none of the garment's own pixels around has such a colour, and the one most like it lies towards the board.
+bool is_strange(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, const cv::Vec3f& board) {
+  const Likeness like = most_alike(rgb, sources, x, y, kAround);
+  const cv::Vec3f own(rgb.at<cv::Vec3b>(y, x));
+  return like.difference < 1e9 && like.difference > kStrange && (own - like.colour).dot(board - like.colour) > 0;
 }
 
 }  // namespace
@@ -124,8 +133,8 @@ cv::Mat nearest_pixel(const cv::Mat& seeds, cv::Mat& distance) {
 
 void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::Mat& keep) {
   cv::Mat distance, off_distance;
-  const cv::Mat garment = nearest_pixel(deep_pixels(keep, depth, kClear), distance);
-  const cv::Mat deepest = nearest_pixel(deep_pixels(keep, depth, kDeepRim + 1), distance);
+  const cv::Mat clearly = deep_pixels(keep, depth, kClear), certain = deep_pixels(keep, depth, kDeepRim + 1);
+  const cv::Mat garment = nearest_pixel(clearly, distance), deepest = nearest_pixel(certain, distance);
   cv::Mat not_garment = keep == 0;
   cv::distanceTransform(not_garment, off_distance, cv::DIST_L2, cv::DIST_MASK_5);
   const cv::Mat clear = (off_distance > 2.0) & off;
@@ -157,7 +166,9 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
     const cv::Vec3f ground(pixel_at(smooth, outer));
     if (const int far = deepest.at<int>(y, x); far >= 0 && far != index) {
       const cv::Vec3f cloth(pixel_at(rgb, far));
-      if (is_mixture(own, cloth, cloth, ground, kMostlyBoard)) keep.at<uchar>(y, x) = 0;
+      if (is_mixture(own, cloth, cloth, ground, kMostlyBoard) &&
+          most_alike(rgb, certain, x, y, static_cast<int>(kDeepRim) + 3).difference > kStrange)
+        keep.at<uchar>(y, x) = 0;
     }
     if (d > kRim) continue;
     bool mixed = is_mixture(own, base, base, ground);
@@ -169,6 +180,8 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
       const cv::Vec3f other(pixel_at(rgb, garment.at<int>(v, u)));
       if (cv::norm(other - base) > kOther) mixed = is_mixture(own, base, other, ground);
     }
+    // A stripe of a colour between cloth and board is no mixture: it goes on further in.
+    if (mixed) mixed = most_alike(rgb, clearly, x, y, static_cast<int>(kClear) + 2).difference > kUnlike;
     if (!mixed && d <= kShadowRim) mixed = is_strange(rgb, sources, x, y, ground);
     if (mixed) keep.at<uchar>(y, x) = 0;
   }
