@@ -11,14 +11,15 @@ namespace {
 
 // The band that shows the cloth: behind bindings and hems, before a print on the chest begins.
 constexpr double kBandStart = 0.030, kBandEnd = 0.075;  // [m] from the border
-constexpr double kShallow = 0.6;       // lightness differences count less: folds and falloff are no print
-constexpr double kDifferent = 10.0;    // [Lab, lightness shallow] from every colour of the band
-constexpr double kCommon = 0.004;      // share of the band from which a colour is the cloth's
-constexpr double kLargestShare = 0.5;  // of the panel; beyond, the band is the exception and not the print
-constexpr double kSpeck = 0.004;       // [m] smaller marks are weave, dust or buttons
-constexpr double kGap = 0.012;         // [m] between letters
-constexpr double kSmallest = 4e-4;     // [m^2] of a print
-constexpr double kHalo = 0.004;        // [m] around it
+constexpr double kShallow = 0.6;         // lightness differences count less: folds and falloff are no print
+constexpr double kDifferent = 10.0;      // [Lab, lightness shallow] from every colour of the band
+constexpr double kCommon = 0.004;        // share of the band from which a colour is the cloth's
+constexpr double kLargestShare = 0.5;    // of the panel; beyond, the band is the exception and not the print
+constexpr double kSmallestShare = 0.02;  // of the panel; less is a deep fold, or what can be told of a print too little
+constexpr double kSpeck = 0.004;         // [m] smaller marks are weave, dust or buttons
+constexpr double kGap = 0.012;           // [m] between letters
+constexpr double kSmallest = 4e-4;       // [m^2] of a print
+constexpr double kHalo = 0.004;          // [m] around it
 
 using Colour = std::array<float, 3>;
 
@@ -82,7 +83,9 @@ cv::Mat find_print(const cv::Mat& rgb, const cv::Mat& panel, const cv::Mat& dept
   const int parts = cv::connectedComponentsWithStats(print, labels, figures, middles, 8, CV_32S);
   for (int i = 1; i < parts; ++i)
     if (figures.at<int>(i, cv::CC_STAT_AREA) < kSmallest * density * density) print.setTo(0, labels == i);
-  if (cv::countNonZero(print) > kLargestShare * cv::countNonZero(panel)) return cv::Mat::zeros(rgb.size(), CV_8UC1);
+  if (cv::countNonZero(print) < kSmallestShare * cv::countNonZero(panel) ||
+      cv::countNonZero(print) > kLargestShare * cv::countNonZero(panel))
+    return cv::Mat::zeros(rgb.size(), CV_8UC1);
   if (cv::countNonZero(print) > 0) cv::dilate(print, print, disc(kHalo * density));
   print &= panel;
   return print;
