@@ -106,7 +106,8 @@ const std::map<std::string, Setter>& setters() {
                                                  {"chest_cm", set_cm<&CatalogItem::chest_cm>},
                                                  {"length_cm", set_cm<&CatalogItem::length_cm>},
                                                  {"fabric", set_text<&CatalogItem::fabric>},
-                                                 {"title", set_text<&CatalogItem::title>}};
+                                                 {"title", set_text<&CatalogItem::title>},
+                                                 {"copyright", set_text<&CatalogItem::copyright>}};
   return all;
 }
 

@@ -12,7 +12,9 @@ find_package(spdlog 1.10 REQUIRED)                                   # debian: l
 find_package(CLI11 2.1 REQUIRED)                                     # debian: libcli11-dev
 find_package(nlohmann_json 3.11 REQUIRED)                            # debian: nlohmann-json3-dev
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)                 # debian: libtinygltf-dev
+find_package(meshoptimizer CONFIG REQUIRED)                          # debian: libmeshoptimizer-dev
 find_package(embree 3.13 REQUIRED)                                   # debian: libembree-dev
+find_package(OpenSSL 3.0 REQUIRED COMPONENTS Crypto)                 # debian: libssl-dev
 if(VITRINE_TESTS)
   find_package(GTest REQUIRED)                                       # debian: libgtest-dev libgmock-dev
 endif()

@@ -23,6 +23,8 @@ const char* fault(const RenderMesh& m) {
   if (m.normals.size() != m.positions.size()) return "has not one normal per vertex";
   if (!m.uv.empty() && m.uv.size() != m.positions.size()) return "has not one texture coordinate per vertex";
   if (!m.texture.empty() && m.uv.empty()) return "has a texture but no texture coordinates";
+  if (!m.shade.empty() && m.shade.size() != m.positions.size()) return "has not one shade per vertex";
+  if (!m.occlusion.empty() && m.texture.empty()) return "has an occlusion picture but no texture";
   if (!sane(m.positions, kLargestCoordinate)) return "has a vertex that is not a place";
   if (!sane(m.uv, 1e3)) return "has a texture coordinate that is not a number";
   for (const Vec3& n : m.normals)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 
 #include "check.hpp"
 #include "gltf.hpp"
+#include "order.hpp"
 #include "vitrine/export.hpp"
 
 namespace vitrine {
@@ -68,6 +70,23 @@ class Builder {
       a.minValues = low;
       a.maxValues = high;
     }
+    return add(a);
+  }
+
+  /// Grey per vertex as COLOR_0: 8-bit RGBA, as each element has to fill four bytes.
+  int greys(const std::vector<float>& values) {
+    std::vector<std::uint8_t> flat;
+    flat.reserve(4 * values.size());
+    for (const float v : values) {
+      const auto grey = static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(v, 0.0F, 1.0F)));
+      flat.insert(flat.end(), {grey, grey, grey, std::uint8_t{255}});
+    }
+    tinygltf::Accessor a;
+    a.bufferView = view(flat.data(), flat.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
+    a.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+    a.normalized = true;
+    a.count = values.size();
+    a.type = TINYGLTF_TYPE_VEC4;
     return add(a);
   }
 
@@ -134,12 +153,45 @@ tinygltf::Value to_value(const nlohmann::json& j) {
   return {};
 }
 
-std::optional<Error> add_mesh(Builder& b, const RenderMesh& mesh, int quality) {
+/// A mesh's pictures as they go into the file.
+struct Pictures {
+  Bytes colour, occlusion;
+  std::size_t size() const { return colour.size() + occlusion.size(); }
+};
+
+/// All pictures at the highest quality at which together they keep the budget.
+Result<std::vector<Pictures>> encode_pictures(std::span<const RenderMesh> meshes, const GlbOptions& options) {
+  for (int quality = options.jpeg_quality;;
+       quality = std::max(options.lowest_quality, quality - options.quality_step)) {
+    std::vector<Pictures> pictures;
+    std::size_t bytes = 0;
+    for (const RenderMesh& mesh : meshes) {
+      Pictures p;
+      if (!mesh.texture.empty()) {
+        auto jpeg = encode_jpeg(mesh.texture, quality);
+        if (!jpeg) return jpeg.error();
+        p.colour = *std::move(jpeg);
+      }
+      if (!mesh.occlusion.empty()) {
+        auto jpeg = encode_jpeg(mesh.occlusion, quality);
+        if (!jpeg) return jpeg.error();
+        p.occlusion = *std::move(jpeg);
+      }
+      bytes += p.size();
+      pictures.push_back(std::move(p));
+    }
+    if (bytes <= options.texture_bytes || quality <= options.lowest_quality) return pictures;
+  }
+}
+
+void add_mesh(Builder& b, const RenderMesh& whole, const Pictures& pictures) {
+  const RenderMesh mesh = ordered_for_caches(whole);
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.attributes["POSITION"] = b.floats(mesh.positions, TINYGLTF_TYPE_VEC3, true);
   primitive.attributes["NORMAL"] = b.floats(mesh.normals, TINYGLTF_TYPE_VEC3, false);
-  if (!mesh.texture.empty()) primitive.attributes["TEXCOORD_0"] = b.floats(mesh.uv, TINYGLTF_TYPE_VEC2, false);
+  if (!pictures.colour.empty()) primitive.attributes["TEXCOORD_0"] = b.floats(mesh.uv, TINYGLTF_TYPE_VEC2, false);
+  if (!mesh.shade.empty()) primitive.attributes["COLOR_0"] = b.greys(mesh.shade);
   primitive.indices = mesh.positions.size() <= kLargest16
                           ? b.indices<std::uint16_t>(mesh.triangles, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
                           : b.indices<std::uint32_t>(mesh.triangles, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
@@ -149,13 +201,12 @@ std::optional<Error> add_mesh(Builder& b, const RenderMesh& mesh, int quality) {
   material.doubleSided = true;  // cloth is seen from inside at necks and hems
   material.pbrMetallicRoughness.metallicFactor = 0.0;
   material.pbrMetallicRoughness.roughnessFactor = kRoughness;
-  if (mesh.texture.empty()) {
+  if (pictures.colour.empty())
     material.pbrMetallicRoughness.baseColorFactor = {mesh.colour[0], mesh.colour[1], mesh.colour[2], 1.0};
-  } else {
-    auto jpeg = encode_jpeg(mesh.texture, quality);
-    if (!jpeg) return jpeg.error();
-    material.pbrMetallicRoughness.baseColorTexture.index = b.texture(*jpeg, mesh.name + "_texture");
-  }
+  else
+    material.pbrMetallicRoughness.baseColorTexture.index = b.texture(pictures.colour, mesh.name + "_texture");
+  if (!pictures.colour.empty() && !pictures.occlusion.empty())
+    material.occlusionTexture.index = b.texture(pictures.occlusion, mesh.name + "_occlusion");
   b.model.materials.push_back(material);
   primitive.material = static_cast<int>(b.model.materials.size()) - 1;
 
@@ -167,17 +218,22 @@ std::optional<Error> add_mesh(Builder& b, const RenderMesh& mesh, int quality) {
   node.name = mesh.name;
   node.mesh = static_cast<int>(b.model.meshes.size()) - 1;
   b.model.nodes.push_back(node);
-  return std::nullopt;
 }
 
 }  // namespace
 
 Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, const GlbOptions& options) {
   if (auto error = check_meshes(meshes)) return *error;
+  if (options.lowest_quality < 1 || options.lowest_quality > options.jpeg_quality || options.jpeg_quality > 100 ||
+      options.quality_step < 1)
+    return Error{Cause::usage, "BAD_QUALITY", "The JPEG qualities of a GLB are out of range.",
+                 "Use 1 to 100, the lowest not above the highest.", "export"};
+  const auto pictures = encode_pictures(meshes, options);
+  if (!pictures) return pictures.error();
   try {
     Builder b;
     b.model.asset.version = "2.0";
-    b.model.asset.generator = "Vitrine";
+    b.model.asset.generator = options.generator;
     b.model.asset.copyright = options.copyright;
     if (!options.extras_json.empty()) {
       const auto extras = nlohmann::json::parse(options.extras_json, nullptr, false);
@@ -186,8 +242,8 @@ Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, const GlbOptions& o
     }
     tinygltf::Scene scene;
     scene.name = "scene";
-    for (const RenderMesh& mesh : meshes) {
-      if (auto error = add_mesh(b, mesh, options.jpeg_quality)) return *error;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      add_mesh(b, meshes[i], (*pictures)[i]);
       scene.nodes.push_back(static_cast<int>(b.model.nodes.size()) - 1);
     }
     b.model.scenes.push_back(scene);

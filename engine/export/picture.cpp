@@ -43,7 +43,17 @@ Result<Bytes> encode_jpeg(const Image& image, int quality) {
     return Error{Cause::usage, "BAD_QUALITY", "JPEG quality " + std::to_string(quality) + " is out of range.",
                  "Use 1 to 100.", "export"};
   if (image.channels == 4) return bad_image("A JPEG has no alpha channel.");
-  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality});
+  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE, 1});
+}
+
+Result<Bytes> encode_webp(const Image& image, int quality) {
+  if (quality < 1 || quality > 100)
+    return Error{Cause::usage, "BAD_QUALITY", "WebP quality " + std::to_string(quality) + " is out of range.",
+                 "Use 1 to 100.", "export"};
+  if (image.width > 16'383 || image.height > 16'383)
+    return Error{Cause::usage, "PICTURE_TOO_LARGE", "A WebP picture has at most 16,383 pixels on a side.",
+                 "Ask for fewer or smaller views, or for PNG.", "export"};
+  return encode(image, ".webp", {cv::IMWRITE_WEBP_QUALITY, quality});
 }
 
 }  // namespace vitrine

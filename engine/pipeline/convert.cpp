@@ -46,6 +46,7 @@ Conversion convert(const ConvertRequest& request) {
   enter_sewing_rooms(rooms);
   rooms.enter("texture", [&] { return rooms.texture(); });
   rooms.enter("export", [&] { return rooms.write_glb(); });
+  rooms.enter("export", [&] { return rooms.check_for_shops(); });
   rooms.enter("preview", [&] { return rooms.take_pictures(); });
   rooms.enter("sewing", [&] { return rooms.judge_drape(); });
   return item;

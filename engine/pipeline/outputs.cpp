@@ -16,7 +16,7 @@ std::optional<Error> write_conversion(const ConvertRequest& request, const Conve
                  "name a folder that you may write to with --out", "export"};
   const std::string base = folder + "/";
   // A refusal must not leave the pictures of an earlier, accepted run beside its report.
-  for (const char* name : {"garment.glb", "dressed.glb", "preview.png"})
+  for (const char* name : {"garment.glb", "dressed.glb", "preview.png", "garment-page.glb", "dressed-page.glb"})
     if (item.garment_glb.empty()) fs::remove(base + name, failed);
 
   if (request.debug_images) {
@@ -36,8 +36,14 @@ std::optional<Error> write_conversion(const ConvertRequest& request, const Conve
     if (auto e = write_file(base + "garment.glb", item.garment_glb)) return e;
     if (auto e = write_file(base + "dressed.glb", item.dressed_glb)) return e;
     if (auto e = write_file(base + "preview.png", item.preview_png)) return e;
-    if (request.obj)
-      if (auto e = write_obj(std::span(&item.garment, 1), folder, "garment")) return e;
+    if (!item.garment_page.empty()) {
+      if (auto e = write_file(base + "garment-page.glb", item.garment_page)) return e;
+      if (auto e = write_file(base + "dressed-page.glb", item.dressed_page)) return e;
+    }
+    for (const NamedFile& picture : item.pictures)
+      if (auto e = write_file(base + picture.name, picture.bytes)) return e;
+    for (const MeshFormat format : request.formats)
+      if (auto e = write_meshes(std::span(&item.garment, 1), format, folder, "garment")) return e;
   }
   // Last, so that a report beside the files means that they are all there.
   return write_file(base + "report.json", report_json(request, item));

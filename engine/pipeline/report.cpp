@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <openssl/evp.h>
+
 #include <nlohmann/json.hpp>
 
 #include "as_given.hpp"
@@ -26,19 +28,27 @@ Json mesh_json(const PanelMesh& mesh) {
           {"edge_cv", s.edge_cv}};
 }
 
-}  // namespace
+Json texture_json(const TextureFigures& f) {
+  return {{"atlas_pixels_per_photo_pixel", f.scale},
+          {"light_gain", f.gain},
+          {"filled_share", f.filled_share},
+          {"print_taken_off_share", f.print_share}};
+}
 
-std::string report_json(const ConvertRequest& request, const Conversion& item) {
-  Json j;
-  j["name"] = request.name;
-  j["status"] = item.error ? "REFUSED" : item.drape.status;
-  if (item.error && !item.garment_glb.empty()) j["status"] = item.error->code;  // written, but marked
-  if (item.error)
-    j["error"] = {{"stage", item.error->stage},
-                  {"code", item.error->code},
-                  {"message", item.error->message},
-                  {"remedy", item.error->remedy},
-                  {"exit_code", item.error->exit_code()}};
+Json commerce_json(const std::vector<CommerceFinding>& findings) {
+  constexpr const char* names[] = {"pass", "warn", "fail"};
+  Json list = Json::array();
+  for (const CommerceFinding& f : findings)
+    list.push_back({{"rule", f.rule},
+                    {"verdict", names[static_cast<int>(f.verdict)]},
+                    {"value", f.value},
+                    {"limit", f.limit},
+                    {"sources", f.sources}});
+  return list;
+}
+
+/// All that is known before the models are written.
+void add_facts(Json& j, const ConvertRequest& request, const Conversion& item) {
   j["garment"] = {{"id", request.garment.id}, {"plugin", request.garment.plugin}, {"version", request.garment.version}};
   j["photos"] = {{"front", request.front}, {"back", request.mirror_back ? "mirrored front" : request.back}};
   if (!item.front.silhouette.method.empty()) j["silhouette"]["front"] = silhouette_json(item.front.silhouette);
@@ -95,14 +105,55 @@ std::string report_json(const ConvertRequest& request, const Conversion& item) {
                   {"modelled", d.modelled},
                   {"skipped", d.skipped}};
   }
+  if (item.texture.size() == 2)
+    j["texture"] = {{"atlas_px", {item.garment.texture.width, item.garment.texture.height}},
+                    {"front", texture_json(item.texture[0])},
+                    {"back", texture_json(item.texture[1])}};
   j["warnings"] = item.warnings;
+  j["versions"] = {{"vitrine", request.version}, {"report", 1}};
+}
+
+std::string to_text(const Json& j, int indent) {
+  return j.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string report_hash(const ConvertRequest& request, const Conversion& item) {
+  Json j;
+  j["name"] = request.name;
+  add_facts(j, request, item);
+  const std::string text = to_text(j, -1);
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  if (EVP_Digest(text.data(), text.size(), digest, &size, EVP_sha256(), nullptr) != 1) return {};
+  std::string hex;
+  for (unsigned i = 0; i < size; ++i)
+    for (const int nibble : {digest[i] >> 4, digest[i] & 15}) hex += "0123456789abcdef"[nibble];
+  return hex;
+}
+
+std::string report_json(const ConvertRequest& request, const Conversion& item) {
+  Json j;
+  j["name"] = request.name;
+  j["status"] = item.error ? "REFUSED" : item.drape.status;
+  if (item.error && !item.garment_glb.empty()) j["status"] = item.error->code;  // written, but marked
+  if (item.error)
+    j["error"] = {{"stage", item.error->stage},
+                  {"code", item.error->code},
+                  {"message", item.error->message},
+                  {"remedy", item.error->remedy},
+                  {"exit_code", item.error->exit_code()}};
+  add_facts(j, request, item);
+  if (!item.garment_check.empty())
+    j["commerce"] = {{"garment.glb", commerce_json(item.garment_check)},
+                     {"dressed.glb", commerce_json(item.dressed_check)}};
   // Processor time is the one part of a conversion that differs between two runs; it is kept apart, last, and in no
   // other file.
   Json ms = Json::object();
   for (const auto& [stage, value] : item.stage_ms) ms[stage] = ms.value(stage, 0.0) + value;
-  j["versions"] = {{"vitrine", request.version}, {"report", 1}};
   j["ms"] = ms;
-  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return to_text(j, 2) + "\n";
 }
 
 }  // namespace vitrine

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "vitrine/preview.hpp"
-#include "vitrine/texture.hpp"
 
 namespace vitrine {
 namespace {
@@ -180,36 +176,6 @@ Rooms::Step Rooms::sew() {
   // Cloth that came close to rest is worth showing; anything worse is marked by the exit code, and still written.
   if (item_.drape.status == "NOT_CONVERGED" && item_.drape.residual <= 1e-2)
     item_.warnings.push_back("RESIDUAL_ABOVE_TARGET");
-  return std::nullopt;
-}
-
-Rooms::Step Rooms::texture() {
-  const TextureSource front{&item_.front.photo.rgb, &item_.front.features.labels, &item_.pattern.panels[0],
-                            &item_.pattern.meshes[0]};
-  const TextureSource back{&item_.back.photo.rgb, &item_.back.features.labels, &item_.pattern.panels[1],
-                           &item_.pattern.meshes[1]};
-  const TextureSource sources[] = {front, back};
-  auto atlas = make_atlas(sources);
-  if (!atlas) return atlas.error();
-  item_.garment = assemble_garment(item_.pattern, item_.drape.positions, item_.drape.welded, *std::move(atlas));
-  item_.mannequin = assemble_mannequin(request_.body->mannequin.mesh);
-  return std::nullopt;
-}
-
-Rooms::Step Rooms::write_glb() {
-  GlbOptions options;
-  options.extras_json =
-      nlohmann::json{{"name", request_.name}, {"garment", request_.garment.id}, {"status", item_.drape.status}}.dump();
-  if (auto e = keep(encode_glb(std::span(&item_.garment, 1), options), item_.garment_glb)) return e;
-  const RenderMesh both[] = {item_.garment, item_.mannequin};
-  return keep(encode_glb(both, options), item_.dressed_glb);
-}
-
-Rooms::Step Rooms::take_pictures() {
-  const RenderMesh both[] = {item_.garment, item_.mannequin};
-  Image picture;
-  if (auto e = keep(render_preview(both), picture)) return e;
-  if (auto e = keep(encode_png(picture), item_.preview_png)) return e;
   return std::nullopt;
 }
 

@@ -60,6 +60,7 @@ class Rooms {
   Step texture();
   Step write_glb();
   Step take_pictures();
+  Step check_for_shops();
   Step judge_drape();
 
  private:

@@ -31,10 +31,16 @@ Framing frame_subject(std::span<const RenderMesh> meshes, const PreviewOptions& 
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
+  // Everything on the floor that is drawn has to be above it, whatever the camera is set up for.
+  const double lowest = low.y();
+  if (options.subject) {
+    low = options.subject->low;
+    high = options.subject->high;
+  }
   const double size = std::max((high - low).maxCoeff(), 1e-3);
 
   Framing f;
-  f.ground = std::min(0.0, low.y());
+  f.ground = std::min({0.0, low.y(), lowest});
   f.low = Vec2::Constant(1e30);
   f.high = Vec2::Constant(-1e30);
   for (double angle : options.turns_deg) {
@@ -46,12 +52,17 @@ Framing frame_subject(std::span<const RenderMesh> meshes, const PreviewOptions& 
     c.back = Vec3(std::sin(a), 0, std::cos(a));
     c.distance = kDistance * size;
     c.eye_height = 0.5 * (low.y() + high.y()) + kLookDown * size;
-    for (const RenderMesh& mesh : meshes)
-      for (const Vec3& p : mesh.positions) {
-        const Vec2 q = c.project(p);
-        f.low = f.low.cwiseMin(q);
-        f.high = f.high.cwiseMax(q);
-      }
+    const auto cover = [&](const Vec3& p) {
+      const Vec2 q = c.project(p);
+      f.low = f.low.cwiseMin(q);
+      f.high = f.high.cwiseMax(q);
+    };
+    if (options.subject)
+      for (int corner = 0; corner < 8; ++corner)
+        cover({corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(), corner & 4 ? high.z() : low.z()});
+    else
+      for (const RenderMesh& mesh : meshes)
+        for (const Vec3& p : mesh.positions) cover(p);
     f.cameras.push_back(c);
   }
 

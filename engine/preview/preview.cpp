@@ -2,12 +2,13 @@
 #include "vitrine/preview.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "camera.hpp"
-#include "sampling.hpp"
-#include "studio.hpp"
-#include "tracer.hpp"
+#include "texture_lookup.hpp"
+#include "view.hpp"
+#include "vitrine/rays.hpp"
 
 namespace vitrine {
 namespace {
@@ -18,12 +19,16 @@ std::optional<Error> check_options(const PreviewOptions& o) {
   const bool automatic = o.frame_bottom < 0 && o.frame_top < 0;
   const bool frame = automatic || (std::isfinite(o.frame_bottom) && std::isfinite(o.frame_top) &&
                                    o.frame_top - o.frame_bottom > 1e-3 && o.frame_top - o.frame_bottom < 1e3);
-  bool turns = !o.turns_deg.empty() && o.turns_deg.size() <= 16;
+  bool turns = !o.turns_deg.empty() && o.turns_deg.size() <= 72;
   for (double turn : o.turns_deg) turns = turns && std::isfinite(turn);
+  turns = turns && static_cast<double>(o.turns_deg.size()) * o.view_width <= 65'500;
+  if (o.subject)
+    turns = turns && o.subject->low.allFinite() && o.subject->high.allFinite() &&
+            (o.subject->high - o.subject->low).minCoeff() >= 0 && (o.subject->high - o.subject->low).maxCoeff() < 1e3;
   if (size && rays && frame && turns) return std::nullopt;
   return Error{Cause::usage, "BAD_PREVIEW_OPTIONS", "The preview's size, views, rays or frame are out of range.",
-               "Use 16 to 8192 px, 1 to 16 views, 1 to 256 samples, 0 to 1024 occlusion rays and a frame whose top is "
-               "above its bottom.",
+               "Use 16 to 8192 px, 1 to 72 views of at most 65,500 px together, 1 to 256 samples, 0 to 1024 occlusion "
+               "rays and a frame whose top is above its bottom.",
                "preview"};
 }
 
@@ -52,26 +57,28 @@ Result<Image> render_preview(std::span<const RenderMesh> meshes, const PreviewOp
   const Framing framing = frame_subject(meshes, options);
   const auto tracer = Tracer::build(meshes);
   if (!tracer) return tracer.error();
-  const Studio studio(meshes, *tracer, framing, options);
+  std::vector<TextureLookup> textures;
+  const double footprint = framing.pixel / std::sqrt(static_cast<double>(options.samples));
+  for (const RenderMesh& mesh : meshes) textures.emplace_back(mesh, footprint);
 
-  Image picture(options.view_width * static_cast<int>(framing.cameras.size()), options.view_height, 3);
-  // The same places in every pixel keep edges even.
-  const Sequence places(0, 0, 0);
+  Image picture(options.view_width * static_cast<int>(framing.cameras.size()), options.view_height,
+                options.ground == Ground::alpha ? 4 : 3);
   for (std::size_t view = 0; view < framing.cameras.size(); ++view)
-    for (int y = 0; y < options.view_height; ++y)
-      for (int x = 0; x < options.view_width; ++x) {
-        const int column = static_cast<int>(view) * options.view_width + x;
-        Colour sum = Colour::Zero();
-        for (int s = 0; s < options.samples; ++s) {
-          const Vec2 place = places.point(s);
-          const Vec2 film = framing.top_left + framing.pixel * Vec2(x + place.x(), -(y + place.y()));
-          sum += studio.look(framing.cameras[view], film, column, y, s);
-        }
-        sum /= static_cast<float>(options.samples);
-        std::uint8_t* out = picture.at(column, y);
-        for (int c = 0; c < 3; ++c) out[c] = linear_to_srgb(sum[c]);
-      }
+    draw_view(meshes, textures, *tracer, framing, framing.cameras[view], options, picture,
+              static_cast<int>(view) * options.view_width);
   return picture;
+}
+
+std::vector<double> turntable(int count) {
+  std::vector<double> turns;
+  for (int i = 0; i < count; ++i) turns.push_back(360.0 * i / count);
+  return turns;
+}
+
+std::array<double, 2> detail_frame(const RenderMesh& mesh) {
+  double top = mesh.positions.empty() ? 0.0 : -1e30;
+  for (const Vec3& p : mesh.positions) top = std::max(top, p.y());
+  return {top - 0.46, top + 0.06};
 }
 
 }  // namespace vitrine

@@ -6,23 +6,21 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "fill.hpp"
+#include "print.hpp"
+#include "rim.hpp"
+
 namespace vitrine {
 namespace {
 
 // A garment may overhang its photo by a little where the panel is smoothed, never by whole pictures.
 constexpr double kLargestOverhang = 512;  // [px]
 constexpr int kLargestSide = 1 << 15;     // [px]
-// Lens blur, chroma subsampling and matting mix board and garment over this rim.
-constexpr float kRim = 2.0F;  // [px]
-// Share of the board in a rim pixel from which it is taken for a mixture.
-constexpr float kMixed = 0.08F;
-// A rim pixel this much darker than the cloth behind it lies in the gap under the edge.
-constexpr float kShadow = 0.6F;
-// Colours are taken from a pixel further in: a faint mixture spread over the whole bled zone would show as a line.
-constexpr float kSource = 3.0F;  // [px]
-// Blur of the bled zone: near the panel just enough to break up streaks, further out wide.
-constexpr double kNearBlur = 1.6, kFarBlur = 6.0;  // [px]
-constexpr float kFarStart = 4.0F, kFarEnd = 12.0F;
+// Places that are not kept and wider than twice this are filled with cloth; narrower ones take the edge's colours.
+constexpr float kWide = 8.0F;   // [px]
+constexpr double kHem = 0.025;  // [m]
+// Around the inside of the back lies the neckline's binding.
+constexpr double kBinding = 0.045;  // [m]
 
 Error internal(const std::string& message) {
   return {Cause::internal, "BAD_TEXTURE_SOURCE", message, "Report this with the photos that caused it.", "texture"};
@@ -38,80 +36,33 @@ Result<bool> check(const TextureSource& s) {
   if (s.rgb->width != s.labels->width || s.rgb->height != s.labels->height)
     return internal("A panel's photo and labels differ in size.");
   if (s.mesh->nodes.empty()) return internal("A panel has no nodes.");
+  for (const Triangle& t : s.mesh->triangles)
+    if (std::max({t[0], t[1], t[2]}) >= s.mesh->nodes.size()) return internal("A panel has a triangle without nodes.");
   return true;
 }
 
-/// Pixels that bleed: those out of the rim's reach, and the ridge of parts too thin to have any (straps).
-cv::Mat find_sources(const cv::Mat& outside, const cv::Mat& depth) {
-  cv::Mat ridge;
-  cv::dilate(depth, ridge, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
-  const cv::Mat sources = (depth > kSource) | ((depth >= ridge) & outside);
-  return sources;
+/// Distance of each non-zero pixel to the nearest zero one; beyond the picture all is zero.
+cv::Mat depth_of(const cv::Mat& mask) {
+  cv::Mat padded, depth;
+  cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  cv::distanceTransform(padded, depth, cv::DIST_L2, cv::DIST_MASK_5);
+  return depth(cv::Rect(cv::Point(1, 1), mask.size())).clone();
 }
 
-/// For every pixel of `wanted` != 0 the nearest non-zero pixel of `seeds`, as an index; -1 where there is none.
-cv::Mat nearest(const cv::Mat& seeds, cv::Mat& distance) {
-  cv::Mat labels, inverse = seeds == 0;
-  cv::distanceTransform(inverse, distance, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
-  int highest = 0;
-  for (int y = 0; y < labels.rows; ++y)
-    for (int x = 0; x < labels.cols; ++x) highest = std::max(highest, labels.at<int>(y, x));
-  std::vector<int> pixel(static_cast<std::size_t>(highest) + 1, -1);
-  for (int y = 0; y < labels.rows; ++y)
-    for (int x = 0; x < labels.cols; ++x)
-      if (seeds.at<uchar>(y, x)) pixel[labels.at<int>(y, x)] = y * labels.cols + x;
-  for (int y = 0; y < labels.rows; ++y)
-    for (int x = 0; x < labels.cols; ++x) labels.at<int>(y, x) = pixel[labels.at<int>(y, x)];
-  return labels;
-}
-
-float brightness(const cv::Vec3f& c) {
-  return 0.299F * c[0] + 0.587F * c[1] + 0.114F * c[2];
-}
-
-cv::Vec3b pixel_at(const cv::Mat& rgb, int index) {
-  return rgb.at<cv::Vec3b>(index / rgb.cols, index % rgb.cols);
-}
-
-/// Marks the rim pixels whose colour lies on the way from the garment's to the board's, and those in the narrow shadow
-/// between the cloth and the board: sewn together they would draw a dark line along every seam.
-void drop_mixed(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& garment, const cv::Mat& board, cv::Mat& keep) {
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x) {
-      if (!keep.at<uchar>(y, x) || depth.at<float>(y, x) > kRim) continue;
-      const int inner = garment.at<int>(y, x), outer = board.at<int>(y, x);
-      if (inner < 0 || inner == y * rgb.cols + x) continue;
-      const cv::Vec3f base(pixel_at(rgb, inner)), own(rgb.at<cv::Vec3b>(y, x));
-      if (brightness(own) < kShadow * brightness(base)) keep.at<uchar>(y, x) = 0;
-      if (outer < 0) continue;
-      const cv::Vec3f way = cv::Vec3f(pixel_at(rgb, outer)) - base, change = own - base;
-      const float way2 = way.dot(way);
-      // Board and garment of the same colour: a mixture shows nothing.
-      if (way2 < 12.0F * 12.0F) continue;
-      const float share = change.dot(way) / way2;
-      // Off the way lies the garment's own piping or stitching.
-      const cv::Vec3f beside = change - share * way;
-      if (share > kMixed && beside.dot(beside) < 0.25F * share * share * way2 + 15.0F * 15.0F) keep.at<uchar>(y, x) = 0;
-    }
-}
-
-/// Everything that is not kept takes the nearest source's colour, blurred more the further it lies.
-void bleed(cv::Mat& rgb, const cv::Mat& keep, const cv::Mat& garment, const cv::Mat& distance) {
-  cv::Mat filled = rgb.clone();
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x)
-      if (!keep.at<uchar>(y, x)) filled.at<cv::Vec3b>(y, x) = pixel_at(rgb, garment.at<int>(y, x));
-  cv::Mat close, far;
-  cv::GaussianBlur(filled, close, {}, kNearBlur, kNearBlur, cv::BORDER_REPLICATE);
-  cv::GaussianBlur(filled, far, {}, kFarBlur, kFarBlur, cv::BORDER_REPLICATE);
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x) {
-      if (keep.at<uchar>(y, x)) continue;
-      const float t = std::clamp((distance.at<float>(y, x) - kFarStart) / (kFarEnd - kFarStart), 0.0F, 1.0F);
-      const cv::Vec3f a(close.at<cv::Vec3b>(y, x)), b(far.at<cv::Vec3b>(y, x));
-      const cv::Vec3f mix = a + t * (b - a);
-      for (int c = 0; c < 3; ++c) rgb.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(mix[c]);
-    }
+/// Pixels that the panel's triangles cover.
+cv::Mat panel_region(const TextureSource& source, const Cutout& cut) {
+  cv::Mat region = cv::Mat::zeros(cut.rgb.size(), CV_8UC1);
+  constexpr int shift = 4;  // sixteenths of a pixel
+  const auto place = [&](std::uint32_t node) {
+    const Vec2& p = cut.pixels[node];
+    return cv::Point(static_cast<int>(std::lround((p.x() - cut.left) * (1 << shift))),
+                     static_cast<int>(std::lround((p.y() - cut.top) * (1 << shift))));
+  };
+  for (const Triangle& t : source.mesh->triangles) {
+    const cv::Point corners[] = {place(t[0]), place(t[1]), place(t[2])};
+    cv::fillConvexPoly(region, corners, 3, cv::Scalar::all(255), cv::LINE_8, shift);
+  }
+  return region;
 }
 
 }  // namespace
@@ -140,8 +91,8 @@ Result<Cutout> cut_out(const TextureSource& source, int margin) {
   const cv::Size size(static_cast<int>(std::ceil(high.x())) + margin + 1 - out.left,
                       static_cast<int>(std::ceil(high.y())) + margin + 1 - out.top);
   out.rgb = cv::Mat(size, CV_8UC3, cv::Scalar::all(0));
-  // 255 outside face, 0 anything else; `off` marks board and inside that lie clear of the rim.
-  cv::Mat outside(size, CV_8UC1, cv::Scalar::all(0)), off = outside.clone();
+  // 255 outside face, 0 anything else; `off` marks board and inside.
+  cv::Mat outside(size, CV_8UC1, cv::Scalar::all(0)), off = outside.clone(), inside = outside.clone();
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const int px = x + out.left, py = y + out.top;
@@ -151,28 +102,45 @@ Result<Cutout> cut_out(const TextureSource& source, int margin) {
       const bool own = *source.labels->at(px, py) == label_outside;
       outside.at<uchar>(y, x) = own ? 255 : 0;
       off.at<uchar>(y, x) = own ? 0 : 255;
+      inside.at<uchar>(y, x) = *source.labels->at(px, py) == label_inside ? 255 : 0;
     }
   if (cv::countNonZero(outside) == 0)
     return Error{Cause::unusable, "NO_TEXTURE", "The panel covers no pixel of the garment in its photo.",
                  "Check the photo's mask, or let the garment be found without one.", "texture"};
 
-  // A frame of nothing around it, so that a garment filling the crop has an edge as well.
-  cv::Mat padded, depth;
-  cv::copyMakeBorder(outside, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar::all(0));
-  cv::distanceTransform(padded, depth, cv::DIST_L2, cv::DIST_MASK_5);
-  depth = depth(cv::Rect(cv::Point(1, 1), size)).clone();
-
-  cv::Mat distance, board_distance, off_distance;
-  const cv::Mat garment = nearest(find_sources(outside, depth), distance);
-  cv::Mat not_outside = outside == 0, clear;
-  cv::distanceTransform(not_outside, off_distance, cv::DIST_L2, cv::DIST_MASK_5);
-  clear = (off_distance > kRim) & off;
-  const cv::Mat board =
-      cv::countNonZero(clear) ? nearest(clear, board_distance) : cv::Mat(size, CV_32SC1, cv::Scalar(-1));
-
-  cv::Mat keep = outside.clone();
-  drop_mixed(out.rgb, depth, garment, board, keep);
-  bleed(out.rgb, keep, garment, distance);
+  const cv::Mat depth = depth_of(outside);
+  const cv::Mat panel = panel_region(source, out);
+  out.keep = outside.clone();
+  drop_rim(out.rgb, depth, off, out.keep);
+  const double area = std::max(1, cv::countNonZero(panel));
+  if (source.borrowed) {
+    const cv::Mat print = find_print(out.rgb, outside, depth, out.density) & panel;
+    out.print_share = cv::countNonZero(print) / area;
+    cv::Mat around = inside.clone();
+    if (cv::countNonZero(inside) > 0) {
+      const int side = 2 * static_cast<int>(std::lround(kBinding * out.density)) + 1;
+      cv::dilate(inside, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+    }
+    out.keep.setTo(0, print | around);
+    if (cv::countNonZero(out.keep) == 0) out.keep = outside.clone();
+  }
+  // Where the panel wants cloth and the photo has none: over the inside and its label, a print, a hole in the mask.
+  const cv::Mat missing = panel & (out.keep == 0);
+  const cv::Mat deep = depth_of(missing) > kWide;
+  if (cv::countNonZero(deep) > 0) {
+    cv::Mat reach;
+    cv::dilate(deep, reach, cv::getStructuringElement(cv::MORPH_ELLIPSE, {25, 25}));
+    const cv::Mat hole = missing & reach;
+    // Bindings and hems belong to their border and are copied only where there is nothing else.
+    const cv::Mat inner = depth_of(out.keep) > kHem * out.density;
+    cv::Mat left = fill_with_cloth(out.rgb, hole, out.keep, inner);
+    const cv::Mat known = out.keep | (hole & (left == 0));
+    left = fill_with_cloth(out.rgb, left, known, out.keep);
+    out.keep |= hole & (left == 0);
+    out.filled_share = cv::countNonZero(hole) / area;
+  }
+  const cv::Mat whole = outside | out.keep;
+  bleed(out.rgb, out.keep, whole, depth_of(whole));
   return out;
 }
 

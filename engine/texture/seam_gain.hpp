@@ -7,9 +7,9 @@
 
 namespace vitrine {
 
-/// Evens out two photos lit differently: scales the back's channels by the median ratio of front to back colours along
-/// the outline edges of the same name, at most 12 %. Does nothing where the colours are not alike: then the garment
-/// itself differs.
-void match_gain(std::span<const TextureSource> panels, std::vector<Cutout>& cuts);
+/// Evens out two photos lit differently: scales the back's light, channel by channel, by the median ratio of front to
+/// back along the outline edges of the same name. The front is never touched, and pattern, print and folds keep their
+/// contrast. Does nothing where the colours are not alike: then the garment itself differs. Returns the gain.
+std::array<double, 3> match_gain(std::span<const TextureSource> panels, std::vector<Cutout>& cuts);
 
 }  // namespace vitrine

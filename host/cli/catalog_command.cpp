@@ -42,6 +42,8 @@ ItemOutcome refuse(const Error& error) {
 }
 
 int run_catalog_command(const CatalogArguments& arguments) {
+  ConvertRequest probe;
+  if (auto e = arguments.job.apply(probe)) return fail(*e);
   const auto items = read_manifest(arguments.manifest);
   if (!items) return fail(items.error());
   const auto registry = arguments.plugins.load();
@@ -63,7 +65,8 @@ int run_catalog_command(const CatalogArguments& arguments) {
     request.chest = row.chest_cm.value_or(0) / 100;
     request.length = row.length_cm.value_or(0) / 100;
     request.body = *body;
-    arguments.job.apply(request);
+    if (auto e = arguments.job.apply(request)) return refuse(*e);
+    if (!row.copyright.empty()) request.copyright = row.copyright;
     if (auto e = choose_garment(*registry, row.garment, row.neckline, request)) return refuse(*e);
     const Conversion item = convert(request);
     if (auto e = write_conversion(request, item, folder)) return refuse(*e);

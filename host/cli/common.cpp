@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -139,14 +140,75 @@ void JobOptions::add_to(CLI::App& app) {
       ->check(CLI::IsMember({"draft", "standard", "fine"}))
       ->capture_default_str();
   app.add_flag("--debug-images", debug_images, "Also write pictures of silhouette, feature points and mesh");
-  app.add_flag("--obj", obj, "Also write garment.obj");
+  app.add_option("--format", formats, "Also write the garment as obj or ply; may be given twice")
+      ->check(CLI::IsMember({"obj", "ply"}))
+      ->delimiter(',')
+      ->group("Files");
+  app.add_flag("--compress", compress,
+               "Also write garment-page.glb and dressed-page.glb for web pages (EXT_meshopt_compression)")
+      ->group("Files");
+  app.add_option("--texture-size", texture_size, "Largest side of the texture: 512, 1024, 2048 or 4096")
+      ->check(CLI::IsMember({512, 1024, 2048, 4096}))
+      ->capture_default_str()
+      ->group("Files");
+  app.add_option("--brightest", brightest, "Ease whiter cloth below this; some shops ask for 243")
+      ->check(CLI::Range(64, 255))
+      ->capture_default_str()
+      ->group("Files");
+  app.add_option("--copyright", copyright, "Copyright line kept in the files")->group("Files");
+  app.add_option("--views", views, "Also write pictures: front, three-quarter, back, detail")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(view_names), std::end(view_names))))
+      ->delimiter(',')
+      ->group("Pictures");
+  app.add_option("--turntable", turntable, "Also write a strip of N views around the mannequin, each half the size")
+      ->check(CLI::Range(1, 72))
+      ->group("Pictures");
+  app.add_option("--picture", picture, "Format of --views and --turntable: webp, jpeg or png")
+      ->check(CLI::IsMember({"webp", "jpeg", "png"}))
+      ->capture_default_str()
+      ->group("Pictures");
+  app.add_option("--picture-size", picture_size, "Their size in pixels, WIDTHxHEIGHT")
+      ->capture_default_str()
+      ->group("Pictures");
+  app.add_option("--ground", ground, "studio, or alpha: nothing but the subject and its shadow")
+      ->check(CLI::IsMember({"studio", "alpha"}))
+      ->capture_default_str()
+      ->group("Pictures");
 }
 
-void JobOptions::apply(ConvertRequest& request) const {
+std::optional<Error> JobOptions::apply(ConvertRequest& request) const {
+  const auto usage = [](const std::string& message, const std::string& remedy) {
+    return Error{Cause::usage, "USAGE", message, remedy, ""};
+  };
   request.quality = quality == "draft" ? Quality::draft : quality == "fine" ? Quality::fine : Quality::standard;
   request.debug_images = debug_images;
-  request.obj = obj;
+  request.formats.clear();
+  for (const std::string& format : formats)
+    request.formats.push_back(format == "ply" ? MeshFormat::ply : MeshFormat::obj);
+  request.compress = compress;
+  request.texture.max_size = texture_size;
+  request.texture.top_value = brightest;
+  request.copyright = copyright;
   request.version = VITRINE_VERSION;
+
+  PictureRequest& p = request.pictures;
+  p.views = views;
+  p.turntable = turntable;
+  p.format = picture == "png" ? PictureFormat::png : picture == "jpeg" ? PictureFormat::jpeg : PictureFormat::webp;
+  p.ground = ground == "alpha" ? Ground::alpha : Ground::studio;
+  int width = 0, height = 0, end = 0;
+  if (std::sscanf(picture_size.c_str(), "%5dx%5d%n", &width, &height, &end) != 2 ||
+      end != static_cast<int>(picture_size.size()) || width < 64 || width > 4096 || height < 64 || height > 4096)
+    return usage("--picture-size " + picture_size + " is no size", "give WIDTHxHEIGHT, 64 to 4096 each, as 800x1000");
+  p.width = width;
+  p.height = height;
+  if (p.format == PictureFormat::jpeg && p.ground == Ground::alpha)
+    return usage("a JPEG has no alpha channel", "use --picture webp or png with --ground alpha");
+  const int longest = p.format == PictureFormat::webp ? 16'383 : 65'500;
+  if (turntable * (width / 2) > longest)
+    return usage("a strip of " + std::to_string(turntable) + " views is wider than a " + picture + " picture may be",
+                 "ask for fewer views, a smaller --picture-size, or --picture png");
+  return std::nullopt;
 }
 
 std::optional<Error> choose_garment(const PluginRegistry& registry, const std::string& garment,

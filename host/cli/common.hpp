@@ -37,9 +37,15 @@ struct MannequinOptions {
 struct JobOptions {
   std::string quality = "standard";
   bool debug_images = false;
-  bool obj = false;
+  std::vector<std::string> formats;
+  bool compress = false;
+  int texture_size = 2048, brightest = 255;
+  std::vector<std::string> views;
+  int turntable = 0;
+  std::string picture = "webp", picture_size = "800x1000", ground = "studio", copyright;
   void add_to(CLI::App& app);
-  void apply(ConvertRequest& request) const;
+  /// Error: USAGE (64) when options contradict each other.
+  std::optional<Error> apply(ConvertRequest& request) const;
 };
 
 /// Adds to `choice` what the registry knows: the garment's template and all necklines; `neckline` is "auto" or an id.

@@ -28,7 +28,7 @@ int run_convert(const ConvertArguments& arguments) {
   if (!loaded) return fail(loaded.error());
   const PluginRegistry& registry = *loaded;
   if (auto e = choose_garment(registry, arguments.garment, arguments.neckline, request)) return fail(*e);
-  arguments.job.apply(request);
+  if (auto e = arguments.job.apply(request)) return fail(*e);
   request.chest = arguments.chest_cm / 100;
   request.length = arguments.length_cm / 100;
   auto body = arguments.mannequin.make_body();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// node validate.mjs FILE.glb...: the Khronos validator over every file; any error or warning fails it.
+// node validate.mjs FILE.glb...: the Khronos validator over every file; any error, warning or info fails it.
 import { readFile } from 'node:fs/promises';
 import validator from 'gltf-validator';
 
@@ -16,7 +16,7 @@ for (const file of files) {
     const bytes = new Uint8Array(await readFile(file));
     const { issues } = await validator.validateBytes(bytes, { uri: file, maxIssues: 100 });
     const counts = `${issues.numErrors} errors, ${issues.numWarnings} warnings, ${issues.numInfos} infos`;
-    const good = issues.numErrors === 0 && issues.numWarnings === 0;
+    const good = issues.numErrors === 0 && issues.numWarnings === 0 && issues.numInfos === 0;
     console.log(`${good ? 'ok' : 'FAILED'} ${file}: ${counts}`);
     for (const m of issues.messages) console.log(`  ${m.code} at ${m.pointer}: ${m.message}`);
     good ? ++passed : ++failed;

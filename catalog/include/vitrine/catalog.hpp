@@ -24,6 +24,7 @@ struct CatalogItem {
   std::optional<double> length_cm;    ///< [cm]
   std::string fabric;                 ///< fabric of the garment type, or empty for its default
   std::string title;                  ///< for people
+  std::string copyright;              ///< line kept in the item's files, or empty
   int line = 0;                       ///< of the manifest, for messages
 };
 

@@ -30,8 +30,8 @@ class Manifest : public Scratch {
 
 TEST_F(Manifest, reads_every_column_in_any_order) {
   const auto list = items(
-      "title,length_cm,chest_cm,back_mask,front_mask,mirror_back,back,front,neckline,garment,sku,fabric\n"
-      "A vest,62,46.5,b.png,f.png,no,b.jpg,f.jpg,neck_v,vest,v-1,jersey\n");
+      "title,length_cm,chest_cm,back_mask,front_mask,mirror_back,back,front,neckline,garment,sku,fabric,copyright\n"
+      "A vest,62,46.5,b.png,f.png,no,b.jpg,f.jpg,neck_v,vest,v-1,jersey,2026 A shop\n");
   ASSERT_EQ(list.size(), 1u);
   const CatalogItem& v = list[0];
   EXPECT_EQ(v.sku, "v-1");
@@ -46,6 +46,7 @@ TEST_F(Manifest, reads_every_column_in_any_order) {
   EXPECT_DOUBLE_EQ(*v.length_cm, 62);
   EXPECT_EQ(v.fabric, "jersey");
   EXPECT_EQ(v.title, "A vest");
+  EXPECT_EQ(v.copyright, "2026 A shop");
   EXPECT_EQ(v.line, 2);
 }
 

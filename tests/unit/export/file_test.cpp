@@ -85,7 +85,7 @@ TEST_F(Files, keep_the_old_version_when_the_new_one_does_not_fit) {
 
 TEST_F(Files, obj_reads_back_with_its_material_and_texture_beside_it) {
   const std::vector<RenderMesh> meshes{textured_sheet(6), plain_sheet("mannequin", 4)};
-  ASSERT_EQ(write_obj(meshes, folder_.string(), "item"), std::nullopt);
+  ASSERT_EQ(write_meshes(meshes, MeshFormat::obj, folder_.string(), "item"), std::nullopt);
   EXPECT_THAT(names(), testing::ElementsAre("item.mtl", "item.obj", "item_garment.png"));
   EXPECT_THAT(read(path("item.obj")), testing::HasSubstr("mtllib item.mtl"));
   EXPECT_THAT(read(path("item.mtl")), testing::HasSubstr("map_Kd item_garment.png"));
@@ -107,18 +107,41 @@ TEST_F(Files, obj_is_the_same_bytes_in_another_folder) {
   const std::vector<RenderMesh> meshes{textured_sheet(6)};
   fs::create_directory(path("one"));
   fs::create_directory(path("two"));
-  ASSERT_EQ(write_obj(meshes, path("one"), "item"), std::nullopt);
-  ASSERT_EQ(write_obj(meshes, path("two"), "item"), std::nullopt);
-  for (const char* name : {"item.obj", "item.mtl", "item_garment.png"})
+  ASSERT_EQ(write_meshes(meshes, MeshFormat::obj, path("one"), "item"), std::nullopt);
+  ASSERT_EQ(write_meshes(meshes, MeshFormat::obj, path("two"), "item"), std::nullopt);
+  for (const char* name : {"item.obj", "item.mtl", "item_texture.png"})
     EXPECT_EQ(read(path("one/") + name), read(path("two/") + name)) << name;
+}
+
+TEST_F(Files, ply_reads_back_and_names_its_texture_in_the_header) {
+  const std::vector<RenderMesh> meshes{textured_sheet(6)};
+  ASSERT_EQ(write_meshes(meshes, MeshFormat::ply, folder_.string(), "item"), std::nullopt);
+  EXPECT_THAT(names(), testing::ElementsAre("item.ply", "item_texture.png"));
+  EXPECT_THAT(read(path("item.ply")), testing::StartsWith("ply\nformat binary_little_endian 1.0\n"
+                                                          "comment TextureFile item_texture.png\n"));
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path("item.ply"), 0);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumMeshes, 1u);
+  const aiMesh& mesh = *scene->mMeshes[0];
+  EXPECT_EQ(mesh.mNumFaces, meshes[0].triangles.size());
+  ASSERT_TRUE(mesh.HasNormals() && mesh.HasTextureCoords(0));
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i)
+    EXPECT_NEAR(mesh.mTextureCoords[0][i].y, (mesh.mVertices[i].y - 0.1) / 1.1, 1e-4);
+}
+
+TEST_F(Files, one_ply_is_written_for_each_mesh_when_there_are_several) {
+  const std::vector<RenderMesh> meshes{textured_sheet(3), plain_sheet("mannequin", 2)};
+  ASSERT_EQ(write_meshes(meshes, MeshFormat::ply, folder_.string(), "item"), std::nullopt);
+  EXPECT_THAT(names(), testing::ElementsAre("item_garment.ply", "item_garment_texture.png", "item_mannequin.ply"));
 }
 
 TEST_F(Files, obj_into_a_missing_folder_is_an_error_73) {
   const std::vector<RenderMesh> meshes{textured_sheet(2)};
-  const auto error = write_obj(meshes, path("nowhere"), "item");
+  const auto error = write_meshes(meshes, MeshFormat::obj, path("nowhere"), "item");
   ASSERT_TRUE(error);
   EXPECT_EQ(error->exit_code(), 73);
-  EXPECT_TRUE(write_obj(meshes, folder_.string(), "../escape"));
+  EXPECT_TRUE(write_meshes(meshes, MeshFormat::obj, folder_.string(), "../escape"));
   EXPECT_THAT(names(), testing::IsEmpty());
 }
 
@@ -141,6 +164,30 @@ TEST(Pictures, refuse_torn_images_and_impossible_quality) {
   EXPECT_FALSE(encode_png(Image{}));
   EXPECT_FALSE(encode_jpeg(red_over_blue(), 0));
   EXPECT_FALSE(encode_jpeg(Image(8, 8, 4), 80));
+  EXPECT_FALSE(encode_webp(red_over_blue(), 101));
+  EXPECT_EQ(encode_webp(Image(16'384, 4, 3), 80).error().code, "PICTURE_TOO_LARGE");
+}
+
+TEST(Pictures, keep_their_alpha_channel_in_webp) {
+  Image image(32, 32, 4);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) {
+      image.at(x, y)[0] = 220;
+      image.at(x, y)[3] = y < 16 ? 0 : 255;
+    }
+  const auto bytes = encode_webp(image, 90);
+  ASSERT_TRUE(bytes);
+  const cv::Mat bgra = cv::imdecode(*bytes, cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(bgra.type(), CV_8UC4);
+  EXPECT_EQ(bgra.at<cv::Vec4b>(4, 4)[3], 0);
+  EXPECT_EQ(bgra.at<cv::Vec4b>(28, 4)[3], 255);
+  EXPECT_NEAR(bgra.at<cv::Vec4b>(28, 4)[2], 220, 8);
+}
+
+TEST(Names, are_portable_whatever_a_shop_calls_its_goods) {
+  EXPECT_EQ(portable_name("garment", ""), "garment");
+  EXPECT_EQ(portable_name("garment", "12-AB_7"), "garment_12-ab_7");
+  EXPECT_EQ(portable_name("garment", "Kleid \xC3\xA4 1.5"), "garment_kleid----1-5");
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include "sample.hpp"
 
@@ -85,13 +88,103 @@ TEST(Glb, states_the_exact_bounds_of_what_it_stores) {
   for (int c = 0; c < 3; ++c) {
     double low = 1e9, high = -1e9;
     for (std::size_t i = 0; i < a.count; ++i) {
-      EXPECT_NEAR(stored[3 * i + c], garment.positions[i][c], 1e-6);
       low = std::min<double>(low, stored[3 * i + c]);
       high = std::max<double>(high, stored[3 * i + c]);
     }
     EXPECT_EQ(a.minValues[c], low);
     EXPECT_EQ(a.maxValues[c], high);
   }
+}
+
+/// What viewers get: the corners of every triangle, in the file's order.
+std::vector<Vec3> corners(const tinygltf::Model& m, const tinygltf::Primitive& p) {
+  const tinygltf::Accessor &a = m.accessors[p.attributes.at("POSITION")], &indices = m.accessors[p.indices];
+  const auto& data = m.buffers[0].data;
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < indices.count; ++i) {
+    std::uint16_t v = 0;
+    std::memcpy(&v, data.data() + m.bufferViews[indices.bufferView].byteOffset + 2 * i, 2);
+    float xyz[3];
+    std::memcpy(xyz, data.data() + m.bufferViews[a.bufferView].byteOffset + 12 * v, 12);
+    out.emplace_back(xyz[0], xyz[1], xyz[2]);
+  }
+  return out;
+}
+
+TEST(Glb, holds_the_same_triangles_the_same_way_round_in_an_order_that_caches_like) {
+  RenderMesh sheet = plain_sheet("sheet", 40);
+  // Triangles far apart follow each other: every vertex would be fetched anew.
+  std::vector<Triangle> scattered;
+  for (std::size_t i = 0, at = 0; i < sheet.triangles.size(); ++i, at = (at + 1217) % sheet.triangles.size())
+    scattered.push_back(sheet.triangles[at]);
+  sheet.triangles = scattered;
+  const tinygltf::Model m = parse(encode({sheet}));
+  const std::vector<Vec3> stored = corners(m, m.meshes[0].primitives[0]);
+  ASSERT_EQ(stored.size(), 3 * sheet.triangles.size());
+  const auto key = [](Vec3 a, Vec3 b, Vec3 c) {
+    // Which corner comes first does not matter, which way round they go does.
+    const auto less = [](const Vec3& p, const Vec3& q) {
+      return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+    };
+    while (less(b, a) || less(c, a)) {
+      const Vec3 first = a;
+      a = b;
+      b = c;
+      c = first;
+    }
+    std::array<float, 9> k{};
+    for (int i = 0; i < 3; ++i) {
+      k[i] = static_cast<float>(a[i]);
+      k[3 + i] = static_cast<float>(b[i]);
+      k[6 + i] = static_cast<float>(c[i]);
+    }
+    return k;
+  };
+  std::multiset<std::array<float, 9>> wanted, found;
+  const auto single = [](const Vec3& p) { return Vec3(p.cast<float>().cast<double>()); };
+  for (const Triangle& t : sheet.triangles)
+    wanted.insert(key(single(sheet.positions[t[0]]), single(sheet.positions[t[1]]), single(sheet.positions[t[2]])));
+  std::vector<Vec3> cache;
+  int misses = 0;
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    if (i % 3 == 0) found.insert(key(stored[i], stored[i + 1], stored[i + 2]));
+    if (std::find(cache.begin(), cache.end(), stored[i]) != cache.end()) continue;
+    ++misses;
+    cache.push_back(stored[i]);
+    if (cache.size() > 16) cache.erase(cache.begin());
+  }
+  EXPECT_EQ(found, wanted);
+  EXPECT_LT(misses, 0.9 * static_cast<double>(sheet.triangles.size()));
+}
+
+TEST(Glb, lowers_the_jpeg_quality_only_as_far_as_the_budget_asks) {
+  RenderMesh mesh = textured_sheet(3);
+  mesh.texture = Image(256, 256, 3);
+  for (std::size_t i = 0; i < mesh.texture.data.size(); ++i)
+    mesh.texture.data[i] = static_cast<std::uint8_t>((i * 2654435761u) >> 13);
+  const std::size_t free = encode({mesh}).size();
+  const std::size_t tight = encode({mesh}, {.texture_bytes = 45'000}).size();
+  const std::size_t none = encode({mesh}, {.lowest_quality = 80, .texture_bytes = 1}).size();
+  EXPECT_LT(tight, free);
+  EXPECT_LE(none, tight);
+  EXPECT_EQ(none, encode({mesh}, {.jpeg_quality = 80, .lowest_quality = 80}).size());
+  EXPECT_FALSE(encode_glb(std::span(&mesh, 1), {.jpeg_quality = 50, .lowest_quality = 80}));
+}
+
+TEST(Glb, keeps_occlusion_in_the_one_material_and_shade_in_the_vertices) {
+  RenderMesh garment = textured_sheet(4), body = plain_sheet("mannequin", 3);
+  garment.occlusion = Image(16, 16, 1, 200);
+  body.shade.assign(body.positions.size(), 0.5F);
+  const tinygltf::Model m = parse(encode({garment, body}));
+  ASSERT_EQ(m.materials.size(), 2u);
+  EXPECT_EQ(m.images.size(), 2u);
+  EXPECT_EQ(m.images[m.textures[m.materials[0].occlusionTexture.index].source].name, "garment_occlusion");
+  EXPECT_EQ(m.materials[0].occlusionTexture.texCoord, 0);
+  const tinygltf::Accessor& a = m.accessors[m.meshes[1].primitives[0].attributes.at("COLOR_0")];
+  EXPECT_TRUE(a.normalized);
+  EXPECT_EQ(a.count, body.positions.size());
+  EXPECT_EQ(m.buffers[0].data[m.bufferViews[a.bufferView].byteOffset], 128);
+  EXPECT_EQ(m.meshes[0].primitives[0].attributes.count("COLOR_0"), 0u);
 }
 
 TEST(Glb, uses_16_bit_indices_as_long_as_they_fit) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -179,6 +180,93 @@ TEST(Preview, grounds_a_standing_body_with_a_contact_shadow) {
     for (int y = 0; y < picture.height; ++y)
       if (seen(picture.at(x, y)) == Seen::ground) darkest = std::min<int>(darkest, picture.at(x, y)[0]);
   EXPECT_LT(darkest, empty - 15);
+}
+
+TEST(Preview, is_clear_around_the_subject_without_a_ground_and_solid_on_it) {
+  PreviewOptions o = kSmall;
+  o.ground = Ground::alpha;
+  const Image picture = render({tube()}, o);
+  ASSERT_EQ(picture.channels, 4);
+  EXPECT_EQ(picture.at(0, 0)[3], 0);
+  EXPECT_EQ(picture.at(60, 90)[3], 255);
+  EXPECT_EQ(seen(picture.at(60, 90)), Seen::front);
+  // Along the subject's edge the colour is the subject's own: no ground is mixed into it.
+  for (int y = 40; y < 140; ++y)
+    for (int x = 0; x < 120; ++x)
+      if (const std::uint8_t* p = picture.at(x, y); p[3] > 60 && p[3] < 255) {
+        EXPECT_NE(seen(p), Seen::ground) << x << "," << y;
+      }
+}
+
+TEST(Preview, keeps_the_camera_still_whatever_the_body_wears) {
+  PreviewOptions o = kSmall;
+  o.subject = SubjectBox{Vec3(-0.5, 0, -0.2), Vec3(0.5, 1.7, 0.2)};
+  const RenderMesh body = tube(0.12);
+  RenderMesh wide = tube(0.45);
+  for (Vec3& p : wide.positions) p.y() -= 0.5;  // from 0.1 m to 0.7 m
+  const auto rows_of_the_top = [&](const PreviewOptions& options, const std::vector<RenderMesh>& meshes) {
+    const Image picture = render(meshes, options);
+    std::vector<int> widths;
+    for (int y = 0; y < 80; ++y) {
+      int n = 0;
+      for (int x = 0; x < 120; ++x) n += seen(picture.at(x, y)) != Seen::ground;
+      widths.push_back(n);
+    }
+    return widths;
+  };
+  const auto bare = rows_of_the_top(o, {body});
+  EXPECT_GT(*std::max_element(bare.begin(), bare.end()), 8);
+  EXPECT_EQ(bare, rows_of_the_top(o, {body, wide}));
+  EXPECT_NE(rows_of_the_top(kSmall, {body}), rows_of_the_top(kSmall, {body, wide}));
+}
+
+TEST(Preview, turns_the_subject_once_round_on_a_turntable) {
+  const auto turns = turntable(8);
+  ASSERT_EQ(turns.size(), 8u);
+  PreviewOptions o = kSmall;
+  o.turns_deg = turns;
+  auto strip = render_preview(std::vector<RenderMesh>{tube()}, o);
+  ASSERT_TRUE(strip);
+  EXPECT_EQ(strip->width, 8 * 120);
+  const auto shown = [&](int view, Seen what) {
+    int n = 0;
+    for (int y = 0; y < 180; ++y)
+      for (int x = 0; x < 120; ++x) n += seen(strip->at(view * 120 + x, y)) == what;
+    return n;
+  };
+  EXPECT_EQ(shown(0, Seen::back), 0);
+  EXPECT_EQ(shown(4, Seen::front), 0);
+  EXPECT_GT(shown(4, Seen::back), 1000);
+  EXPECT_GT(shown(2, Seen::back), 300);
+  EXPECT_GT(shown(6, Seen::back), 300);
+}
+
+TEST(Preview, shows_folds_by_light_and_shade_in_one_plain_colour) {
+  // A sheet with vertical folds 6 cm apart and 2 cm deep, of one colour.
+  RenderMesh sheet;
+  sheet.name = "garment";
+  sheet.colour = {0.4, 0.4, 0.4};
+  constexpr int n = 120;
+  for (int j = 0; j <= 2; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double x = 0.6 * i / n - 0.3, a = 2 * std::numbers::pi * x / 0.06;
+      sheet.positions.emplace_back(x, 0.5 + 0.4 * j, 0.01 * std::cos(a));
+      sheet.normals.push_back(Vec3(0.01 * 2 * std::numbers::pi / 0.06 * std::sin(a), 0, 1).normalized());
+    }
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < n; ++i) {
+      const auto a = static_cast<std::uint32_t>(j * (n + 1) + i);
+      sheet.triangles.push_back({a, a + 1, a + n + 2});
+      sheet.triangles.push_back({a, a + n + 2, a + n + 1});
+    }
+  PreviewOptions o{.turns_deg = {0}, .view_width = 300, .view_height = 300, .samples = 4, .occlusion_rays = 12};
+  const Image picture = render({sheet}, o);
+  int low = 255, high = 0;
+  for (int x = 110; x < 190; ++x) {
+    low = std::min<int>(low, picture.at(x, 150)[1]);
+    high = std::max<int>(high, picture.at(x, 150)[1]);
+  }
+  EXPECT_GT(high - low, 40);
 }
 
 TEST(Preview, refuses_what_it_cannot_draw) {

@@ -18,11 +18,12 @@ Atlas make(const std::vector<const Shot*>& shots, const TextureOptions& options 
   return atlas ? *std::move(atlas) : Atlas{};
 }
 
-/// Atlas pixel that shows photo pixel (x, y) of an unscaled panel.
+/// Atlas pixel that shows photo pixel (x, y) of an unscaled panel; the back's picture is turned round.
 std::array<int, 2> place(const Atlas& atlas, std::size_t panel, const Shot& shot, int x, int y) {
   const Vec2 node = shot.panel.pixel_from_panel(shot.mesh.nodes[0]);
   const Vec2 at = atlas.uv[panel][0].cwiseProduct(Vec2(atlas.rgb.width, atlas.rgb.height));
-  return {static_cast<int>(std::floor(at.x() + x - node.x())), static_cast<int>(std::floor(at.y() + y - node.y()))};
+  const double across = shot.panel.side == Side::back ? node.x() - x : x - node.x();
+  return {static_cast<int>(std::floor(at.x() + across)), static_cast<int>(std::floor(at.y() + y - node.y()))};
 }
 
 int off(const std::uint8_t* a, const Rgb& b) {
@@ -50,7 +51,8 @@ TEST(Atlas, keeps_the_panels_own_pixels_as_they_are) {
     int changed = 0, seen = 0;
     for (int y = 0; y < shot->rgb.height; ++y)
       for (int x = 0; x < shot->rgb.width; ++x) {
-        if (!shot->own(x, y)) continue;
+        // A colour in the border's row alone cannot be told from board.
+        if (!shot->own(x, y) || !shot->own(x, y - 1)) continue;
         const auto [ax, ay] = place(atlas, panel, *shot, x, y);
         const std::uint8_t* p = shot->rgb.at(x, y);
         changed += off(atlas.rgb.at(ax, ay), {p[0], p[1], p[2]}) > 0;
@@ -139,13 +141,13 @@ TEST(Atlas, eases_white_below_the_top_value_without_flattening_it) {
   const Shot front = shoot(Side::front, 600, [](const Vec2& p) {
     return Rgb{55 + static_cast<int>(400 * p.y()), 250, 255};
   });
-  const Atlas atlas = make({&front});
+  const Atlas atlas = make({&front}, {.top_value = 240});
   for (const std::uint8_t v : atlas.rgb.data) ASSERT_LE(v, 240);
   const Shot grey = shoot(Side::front, 600, [](const Vec2& p) {
     const int v = 195 + static_cast<int>(120 * p.y());
     return Rgb{v, v, v};
   });
-  const Atlas ramp = make({&grey});
+  const Atlas ramp = make({&grey}, {.top_value = 240});
   int steps = 0, last = -1;
   for (int y = grey.rgb.height - 21; y >= 20; --y) {
     const auto [ax, ay] = place(ramp, 0, grey, 100, y);
@@ -161,7 +163,7 @@ TEST(Atlas, evens_out_a_back_lit_a_little_darker) {
   const Shot front = shoot(Side::front, 500, striped);
   const Shot back = shoot(Side::back, 500, [](const Vec2& p) {
     Rgb c = striped(p);
-    for (int& v : c) v = static_cast<int>(std::lround(0.92 * v));
+    for (int& v : c) v = static_cast<int>(std::lround(v * std::pow(0.85, 1 / 2.2)));  // 15 % less light
     return c;
   });
   const Atlas atlas = make({&front, &back});
@@ -171,6 +173,78 @@ TEST(Atlas, evens_out_a_back_lit_a_little_darker) {
     const std::uint8_t* f = atlas.rgb.at(fx, fy);
     EXPECT_LE(off(atlas.rgb.at(bx, by), {f[0], f[1], f[2]}), 4);
   }
+  for (const double g : atlas.panels[1].gain) EXPECT_NEAR(g, 1 / 0.85, 0.03);
+  EXPECT_EQ(atlas.panels[0].gain, (std::array<double, 3>{1, 1, 1}));
+}
+
+TEST(Atlas, turns_neither_panels_texture_inside_out) {
+  const Shot front = shoot(Side::front, 500, plain), back = shoot(Side::back, 500, plain);
+  const Atlas atlas = make({&front, &back});
+  // The mesh that is written winds outwards: the back's triangles are turned over.
+  for (std::size_t panel : {0u, 1u})
+    for (const Triangle& t : front.mesh.triangles) {
+      const Vec2 a = atlas.uv[panel][t[1]] - atlas.uv[panel][t[0]], b = atlas.uv[panel][t[2]] - atlas.uv[panel][t[0]];
+      const double area = a.x() * b.y() - a.y() * b.x();
+      EXPECT_LT(panel == 0 ? area : -area, 0);  // v runs down
+    }
+}
+
+/// Plain cloth with a red print on the chest.
+Rgb printed(const Vec2& p) {
+  return std::abs(p.x()) < 0.06 && p.y() > 0.25 && p.y() < 0.35 ? Rgb{190, 30, 40} : plain(p);
+}
+
+TEST(Atlas, takes_the_print_off_a_back_that_was_borrowed_from_the_front) {
+  const Shot front = shoot(Side::front, 600, printed), back = shoot(Side::back, 600, printed);
+  TextureSource sources[] = {front.source(), back.source()};
+  sources[1].borrowed = true;
+  const auto atlas = make_atlas(sources);
+  ASSERT_TRUE(atlas);
+  for (int y = 60; y < back.rgb.height - 60; y += 3)
+    for (int x = 60; x < back.rgb.width - 60; x += 3) {
+      const auto [bx, by] = place(*atlas, 1, back, x, y);
+      ASSERT_LE(off(atlas->rgb.at(bx, by), plain({})), 6) << x << "," << y;
+    }
+  const auto [fx, fy] = place(*atlas, 0, front, front.rgb.width / 2, front.rgb.height - 21 - 180);
+  EXPECT_LE(off(atlas->rgb.at(fx, fy), {190, 30, 40}), 0);
+  EXPECT_NEAR(atlas->panels[1].print_share, 0.06, 0.02);
+  EXPECT_EQ(atlas->panels[0].print_share, 0);
+}
+
+TEST(Atlas, leaves_a_pattern_all_over_on_a_borrowed_back) {
+  const Shot front = shoot(Side::front, 600, striped), back = shoot(Side::back, 600, striped);
+  TextureSource sources[] = {front.source(), back.source()};
+  sources[1].borrowed = true;
+  const auto atlas = make_atlas(sources);
+  ASSERT_TRUE(atlas);
+  EXPECT_EQ(atlas->panels[1].print_share, 0);
+  for (int y = 30; y < back.rgb.height - 30; y += 7) {
+    const auto [bx, by] = place(*atlas, 1, back, 100, y);
+    const std::uint8_t* p = back.rgb.at(100, y);
+    EXPECT_EQ(off(atlas->rgb.at(bx, by), {p[0], p[1], p[2]}), 0);
+  }
+}
+
+TEST(Atlas, runs_stripes_on_through_a_hole_as_wide_as_a_collar) {
+  Shot back = shoot(Side::back, 600, striped);
+  const Shot whole = back;
+  for (int y = 20; y < 120; ++y)
+    for (int x = 90; x < 180; ++x) {
+      *back.labels.at(x, y) = label_inside;
+      const Rgb label{250, 250, 250};
+      for (int k = 0; k < 3; ++k) back.rgb.at(x, y)[k] = static_cast<std::uint8_t>(label[k]);
+    }
+  const Atlas atlas = make({&back});
+  int wrong = 0, seen = 0;
+  for (int y = 24; y < 120; y += 2)
+    for (int x = 92; x < 178; x += 2) {
+      const auto [ax, ay] = place(atlas, 0, back, x, y);
+      const std::uint8_t* p = whole.rgb.at(x, y);
+      wrong += off(atlas.rgb.at(ax, ay), {p[0], p[1], p[2]}) > 40;
+      ++seen;
+    }
+  EXPECT_LT(wrong, seen / 12);
+  EXPECT_GT(atlas.panels[0].filled_share, 0.05);
 }
 
 TEST(Atlas, leaves_a_back_of_another_colour_alone) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "vitrine/commerce.hpp"
 #include "vitrine/export.hpp"
 #include "vitrine/features.hpp"
 #include "vitrine/mannequin.hpp"
@@ -14,8 +15,10 @@
 #include "vitrine/model/garment.hpp"
 #include "vitrine/panels.hpp"
 #include "vitrine/photo.hpp"
+#include "vitrine/preview.hpp"
 #include "vitrine/sewing.hpp"
 #include "vitrine/silhouette.hpp"
+#include "vitrine/texture.hpp"
 
 namespace vitrine {
 
@@ -77,8 +80,20 @@ std::string view_json(const ViewRequest& request, const View& view);
 /// The same for people, a few lines of text.
 std::string view_table(const ViewRequest& request, const View& view);
 
+enum class PictureFormat { webp, jpeg, png };
+
+/// Pictures of the dressed mannequin besides preview.png, all from one camera that depends on the body alone.
+struct PictureRequest {
+  std::vector<std::string> views;  ///< of view_names
+  int turntable = 0;               ///< views of a turntable, side by side in one file; 0 = none
+  int width = 800, height = 1000;  ///< [px] of a view; a turntable's are half as large
+  PictureFormat format = PictureFormat::webp;
+  Ground ground = Ground::studio;
+};
+constexpr const char* view_names[] = {"front", "three-quarter", "back", "detail"};
+
 struct ConvertRequest : GarmentChoice {
-  std::string name = "garment";  ///< SKU or any label; goes into asset extras
+  std::string name = "garment";  ///< SKU or any label; goes into the names of nodes and into asset extras
   std::string front, back;       ///< photo files; back may be empty with mirror_back
   std::string front_mask, back_mask;
   bool mirror_back = false;            ///< make the back panel from the front photo's silhouette
@@ -87,10 +102,20 @@ struct ConvertRequest : GarmentChoice {
   double chest = 0, length = 0;        ///< [m] flat measurements as the shop lists them; 0 = unknown
   Quality quality = Quality::standard;
   bool debug_images = false;
-  bool obj = false;  ///< also write garment.obj
+  std::vector<MeshFormat> formats;  ///< also write the garment as these
+  bool compress = false;            ///< also write copies for a web page
+  TextureOptions texture;
+  PictureRequest pictures;
+  std::string copyright;  ///< of the GLBs; may be empty
   std::shared_ptr<const Body> body;
   std::string version;                                                   ///< of the program, for the report
   std::function<void(const std::string& stage, double share)> progress;  ///< may be empty; share in 0..1
+};
+
+/// A picture to be written beside the models.
+struct NamedFile {
+  std::string name;
+  Bytes bytes;
 };
 
 /// What every room left behind for one item; `error` is set when a room refused, and later rooms are then empty.
@@ -101,8 +126,12 @@ struct Conversion {
   Pattern pattern;  ///< of the finest level
   Fabric fabric;
   Drape drape;
+  std::vector<TextureFigures> texture;  ///< front, back
   RenderMesh garment, mannequin;
   Bytes garment_glb, dressed_glb, preview_png;
+  Bytes garment_page, dressed_page;  ///< compressed copies, when asked for
+  std::vector<CommerceFinding> garment_check, dressed_check;
+  std::vector<NamedFile> pictures;  ///< as asked for in the request
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, double>> stage_ms;  ///< [ms] of processor time per room, in order
   int exit_code() const { return error ? error->exit_code() : 0; }
@@ -120,12 +149,16 @@ Conversion cut_and_mesh(const ConvertRequest& request);
 /// The rooms as far as the cloth at rest: no texture, files or pictures.
 Conversion cut_and_sew(const ConvertRequest& request);
 
-/// report.json: status, reason, features in pixels of the photos as given, mesh and drape figures, milliseconds per
-/// room.
+/// report.json: status, reason, features in pixels of the photos as given, mesh, drape and texture figures, how the
+/// files stand to the limits of shops ("commerce"), milliseconds per room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
 
-/// Writes garment.glb, dressed.glb, preview.png, report.json (and debug-*.png, garment.obj when asked) into `folder`,
-/// each by rename. A refused item writes report.json and the debug pictures it got to.
+/// SHA-256 [hex] of what the report says of the conversion: its compact JSON without "status", "error", "commerce" and
+/// "ms", which are not known yet when the models are written. The models carry it in asset.extras.
+std::string report_hash(const ConvertRequest& request, const Conversion& conversion);
+
+/// Writes garment.glb, dressed.glb, preview.png, report.json (and debug-*.png, other formats and pictures when asked)
+/// into `folder`, each by rename. A refused item writes report.json and the debug pictures it got to.
 std::optional<Error> write_conversion(const ConvertRequest& request, const Conversion& conversion,
                                       const std::string& folder);
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tracer.hpp"
-
 #include <embree3/rtcore.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 #include <new>
+
+#include "vitrine/rays.hpp"
 
 namespace vitrine {
 
@@ -20,7 +22,7 @@ struct Tracer::Scene {
 namespace {
 
 Error failed(const std::string& message) {
-  return {Cause::internal, "PREVIEW_FAILED", message, "Report this with the photos that caused it.", "preview"};
+  return {Cause::internal, "RAYS_FAILED", message, "Report this with the photos that caused it.", "rays"};
 }
 
 void set_ray(RTCRay& ray, const Vec3& from, const Vec3& direction, float near, float far) {
@@ -40,6 +42,28 @@ void set_ray(RTCRay& ray, const Vec3& from, const Vec3& direction, float near, f
 
 }  // namespace
 
+SurfacePoint surface_point(const RenderMesh& mesh, const Triangle& triangle, const std::array<double, 3>& weights,
+                           double side) {
+  SurfacePoint at{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (int i = 0; i < 3; ++i) {
+    at.point += weights[i] * mesh.positions[triangle[i]];
+    at.normal += weights[i] * side * mesh.normals[triangle[i]];
+  }
+  if (at.normal.norm() > 1e-6) {
+    at.normal.normalize();
+  } else {
+    const Vec3& origin = mesh.positions[triangle[0]];
+    at.normal = side * (mesh.positions[triangle[1]] - origin).cross(mesh.positions[triangle[2]] - origin);
+    at.normal = at.normal.norm() > 0 ? Vec3(at.normal.normalized()) : Vec3::UnitY();
+  }
+  at.start = at.point;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 n = side * mesh.normals[triangle[i]];
+    at.start -= weights[i] * std::min(0.0, (at.point - mesh.positions[triangle[i]]).dot(n)) * n;
+  }
+  return at;
+}
+
 Result<Tracer> Tracer::build(std::span<const RenderMesh> meshes) {
   auto held = std::make_shared<Scene>();
   // SSE2 everywhere: the wider kernels round differently, and the same picture is wanted on every machine.
@@ -56,7 +80,7 @@ Result<Tracer> Tracer::build(std::span<const RenderMesh> meshes) {
                                                                    3 * sizeof(unsigned), mesh.triangles.size()));
     if (!points || !corners) {
       rtcReleaseGeometry(geometry);
-      return failed("Embree found no memory for the preview.");
+      return failed("Embree found no memory for the meshes.");
     }
     for (const Vec3& p : mesh.positions)
       for (int i = 0; i < 3; ++i) *points++ = static_cast<float>(p[i]);

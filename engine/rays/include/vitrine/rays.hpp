@@ -9,6 +9,17 @@
 
 namespace vitrine {
 
+/// A place on a mesh's surface.
+struct SurfacePoint {
+  Vec3 point;   ///< [m] on the triangle
+  Vec3 normal;  ///< unit, smooth
+  Vec3 start;   ///< [m] where rays begin: on the surface that the smooth normals suggest, not on the facet, or facets
+                ///< shadow themselves in bands where the light grazes (Hanika, Hacking the Shadow Terminator, 2021)
+};
+/// `weights` are barycentric; `side` -1 turns the surface over, to its inner face.
+SurfacePoint surface_point(const RenderMesh& mesh, const Triangle& triangle, const std::array<double, 3>& weights,
+                           double side = 1.0);
+
 struct Hit {
   unsigned mesh = 0, triangle = 0;
   double u = 0, v = 0;  ///< barycentric weights of the triangle's second and third vertex

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commerce_uv.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace vitrine {
+namespace {
+
+constexpr int kLargestGutter = 64;  // [px] measured no further
+constexpr int kDark = 30, kBright = 243;
+
+/// Charts by shared vertices.
+class Charts {
+ public:
+  explicit Charts(std::size_t vertices) : parent_(vertices) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t of(std::uint32_t v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// Calls `visit(x, y)` for each texel whose centre lies in the triangle; a centre on an edge belongs to one side only
+/// (top-left rule), so that neighbours never share one.
+template <class F>
+void each_texel(const std::array<Vec2, 3>& p, int width, int height, F&& visit) {
+  const double left = std::min({p[0].x(), p[1].x(), p[2].x()}), right = std::max({p[0].x(), p[1].x(), p[2].x()});
+  const double top = std::min({p[0].y(), p[1].y(), p[2].y()}), bottom = std::max({p[0].y(), p[1].y(), p[2].y()});
+  std::array<Vec2, 3> q = p;
+  if (twice_area(q[0], q[1], q[2]) < 0) std::swap(q[1], q[2]);
+  for (int y = std::max(0, static_cast<int>(std::floor(top))); y <= std::min(height - 1, static_cast<int>(bottom)); ++y)
+    for (int x = std::max(0, static_cast<int>(std::floor(left))); x <= std::min(width - 1, static_cast<int>(right));
+         ++x) {
+      const Vec2 centre(x + 0.5, y + 0.5);
+      bool inside = true;
+      for (int k = 0; k < 3 && inside; ++k) {
+        // Both triangles of an edge see the very same numbers, with the sign turned.
+        Vec2 a = q[k], b = q[(k + 1) % 3];
+        const bool turned = std::lexicographical_compare(b.data(), b.data() + 2, a.data(), a.data() + 2);
+        if (turned) std::swap(a, b);
+        const double side = turned ? -twice_area(a, b, centre) : twice_area(a, b, centre);
+        inside = side > 0 || (side == 0 && turned);
+      }
+      if (inside) visit(x, y);
+    }
+}
+
+/// Least distance [px, whole] at which texels of two charts, or of a chart and the border, come together.
+int find_gutter(const std::vector<int>& chart, int width, int height) {
+  // Breadth first from all charts at once; where two fronts meet, their steps add up.
+  std::vector<int> owner = chart, step(chart.size(), 0), front;
+  int least = 2 * kLargestGutter;
+  for (int i = 0; i < static_cast<int>(chart.size()); ++i)
+    if (chart[i] >= 0) {
+      const int x = i % width, y = i / width;
+      least = std::min(least, std::min(std::min(x, width - 1 - x), std::min(y, height - 1 - y)));
+      front.push_back(i);
+    }
+  for (int distance = 1; !front.empty() && distance <= kLargestGutter; ++distance) {
+    std::vector<int> next;
+    for (const int i : front) {
+      const int x = i % width, y = i / width;
+      for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+        const int u = x + dx, v = y + dy;
+        if (u < 0 || v < 0 || u >= width || v >= height) continue;
+        const int n = v * width + u;
+        if (owner[n] < 0) {
+          owner[n] = owner[i];
+          step[n] = distance;
+          next.push_back(n);
+        } else if (owner[n] != owner[i]) {
+          least = std::min(least, step[n] + step[i]);
+        }
+      }
+    }
+    front = std::move(next);
+  }
+  return least;
+}
+
+}  // namespace
+
+UvFigures measure_uv(const std::vector<Vec2>& uv, const std::vector<Triangle>& triangles, const Image& texture) {
+  UvFigures f;
+  const int width = texture.width, height = texture.height;
+  if (uv.empty() || triangles.empty() || width <= 0 || height <= 0) return f;
+  f.low = 1e30;
+  f.high = -1e30;
+  for (const Vec2& p : uv) {
+    f.low = std::min(f.low, p.minCoeff());
+    f.high = std::max(f.high, p.maxCoeff());
+  }
+  Charts charts(uv.size());
+  for (const Triangle& t : triangles) {
+    charts.join(t[0], t[1]);
+    charts.join(t[1], t[2]);
+  }
+  std::vector<int> count(static_cast<std::size_t>(width) * height, 0), owner(count.size(), -1);
+  for (const Triangle& t : triangles) {
+    // v runs down in glTF, so a triangle that is counter-clockwise on the surface is clockwise in (u, v).
+    if (twice_area(uv[t[0]], uv[t[1]], uv[t[2]]) > 0) ++f.inverted;
+    std::array<Vec2, 3> p;
+    for (int k = 0; k < 3; ++k) p[k] = uv[t[k]].cwiseProduct(Vec2(width, height));
+    const int chart = static_cast<int>(charts.of(t[0]));
+    each_texel(p, width, height, [&](int x, int y) {
+      ++count[static_cast<std::size_t>(y) * width + x];
+      owner[static_cast<std::size_t>(y) * width + x] = chart;
+    });
+  }
+  std::size_t covered = 0, twice = 0, dark = 0, bright = 0;
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    if (count[i] == 0) continue;
+    ++covered;
+    twice += count[i] > 1;
+    const std::uint8_t* c = &texture.data[3 * i];
+    const int top = std::max({c[0], c[1], c[2]});
+    dark += top < kDark;
+    bright += top > kBright;
+  }
+  if (covered > 0) {
+    f.overlap_share = static_cast<double>(twice) / static_cast<double>(covered);
+    f.dark_share = static_cast<double>(dark) / static_cast<double>(covered);
+    f.bright_share = static_cast<double>(bright) / static_cast<double>(covered);
+  }
+  std::vector<std::uint32_t> roots;
+  for (const Triangle& t : triangles) roots.push_back(charts.of(t[0]));
+  std::sort(roots.begin(), roots.end());
+  f.charts = static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
+  f.gutter = find_gutter(owner, width, height);
+  return f;
+}
+
+}  // namespace vitrine

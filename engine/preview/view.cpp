@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lights.hpp"
+#include "vitrine/sampling.hpp"
+
+namespace vitrine {
+namespace {
+
+// Occlusion and soft shadows change slowly along a surface: their rays are shot from every second pixel of every second
+// row, evened out over neighbours on the same surface, and read from there; what changes quickly, the lie of the cloth
+// and its colour, is looked up for each ray.
+constexpr int kStep = 2;              // [px] between lighting points
+constexpr int kBlur = 2;              // lighting points to each side
+constexpr int kFloorStep = 8;         // [px] between points of the floor's shadow
+constexpr float kSamePlane = 0.012F;  // [m] off a point's tangent plane: another surface
+constexpr float kSameFacing = 0.80F;  // cosine between normals: beyond, another fold
+
+struct Seen {
+  Vec3 point, normal, start;
+  double u = 0, v = 0;
+  unsigned mesh = 0;
+  bool inner = false;
+};
+
+/// A place where the light was looked at.
+struct LightPoint {
+  Eigen::Vector3f point, normal;
+  Visibility seen;
+  unsigned mesh = std::numeric_limits<unsigned>::max();  // none
+  bool inner = false;
+};
+
+class View {
+ public:
+  View(std::span<const RenderMesh> meshes, std::span<const TextureLookup> textures, const Tracer& tracer,
+       const Framing& framing, const Camera& camera, const PreviewOptions& options)
+      : meshes_(meshes),
+        textures_(textures),
+        tracer_(tracer),
+        framing_(framing),
+        camera_(camera),
+        options_(options),
+        lights_(tracer, camera, options.occlusion_rays),
+        eye_(camera.eye()),
+        columns_((options.view_width + kStep - 1) / kStep),
+        rows_((options.view_height + kStep - 1) / kStep) {
+    for (const RenderMesh& mesh : meshes)
+      for (const Vec3& p : mesh.positions)
+        shadow_radius_ = std::max(shadow_radius_, std::hypot(p.x() - camera.pivot.x(), p.z() - camera.pivot.z()));
+    shadow_radius_ += kFloorReach;
+  }
+
+  void draw(Image& picture, int left) {
+    look_at_light();
+    look_at_floor();
+    const Sequence places(0, 0, 0);  // the same places in every pixel keep edges even
+    for (int y = 0; y < options_.view_height; ++y)
+      for (int x = 0; x < options_.view_width; ++x) {
+        Eigen::Vector4f sum = Eigen::Vector4f::Zero();  // premultiplied
+        if (empty_around(x, y)) {
+          sum = static_cast<float>(options_.samples) * ground(x + 0.5, y + 0.5);
+        } else {
+          for (int s = 0; s < options_.samples; ++s) {
+            const Vec2 place = places.point(s);
+            sum += look(x + place.x(), y + place.y(), x, y);
+          }
+        }
+        sum /= static_cast<float>(options_.samples);
+        std::uint8_t* out = picture.at(left + x, y);
+        const bool alpha = picture.channels == 4;
+        const float cover = alpha ? sum[3] : 1.0F;
+        for (int c = 0; c < 3; ++c) out[c] = cover > 1e-4F ? linear_to_srgb(sum[c] / cover) : std::uint8_t{0};
+        if (alpha) out[3] = static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(cover, 0.0F, 1.0F)));
+      }
+  }
+
+ private:
+  Vec2 film(double x, double y) const { return framing_.top_left + framing_.pixel * Vec2(x, -y); }
+
+  std::optional<Seen> trace(double x, double y) const {
+    const Vec3 direction = camera_.direction(film(x, y));
+    const auto hit = tracer_.first_hit(eye_, direction);
+    if (!hit) return std::nullopt;
+    const RenderMesh& mesh = meshes_[hit->mesh];
+    const Triangle& t = mesh.triangles[hit->triangle];
+    const Vec3& origin = mesh.positions[t[0]];
+    Vec3 flat = (mesh.positions[t[1]] - origin).cross(mesh.positions[t[2]] - origin);
+    if (!(flat.norm() > 0)) return std::nullopt;
+    flat.normalize();
+    Seen s;
+    s.mesh = hit->mesh;
+    s.inner = flat.dot(direction) > 0;
+    const double side = s.inner ? -1.0 : 1.0;
+    const std::array<double, 3> w{1.0 - hit->u - hit->v, hit->u, hit->v};
+    const SurfacePoint at = surface_point(mesh, t, w, side);
+    s.point = at.point;
+    s.normal = at.normal;
+    s.start = at.start + kLift * side * flat;
+    if (!mesh.uv.empty())
+      for (int i = 0; i < 3; ++i) {
+        s.u += w[i] * mesh.uv[t[i]].x();
+        s.v += w[i] * mesh.uv[t[i]].y();
+      }
+    return s;
+  }
+
+  /// How far two places belong to one surface, 0 to 1.
+  static float same_surface(const LightPoint& p, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                            unsigned mesh, bool inner) {
+    if (p.mesh != mesh || p.inner != inner) return 0.0F;
+    const float facing = p.normal.dot(normal);
+    if (facing < kSameFacing) return 0.0F;
+    const float off = std::abs((p.point - point).dot(normal));
+    return off > kSamePlane ? 0.0F : (1.0F - off / kSamePlane) * (facing - kSameFacing) / (1.0F - kSameFacing);
+  }
+
+  void look_at_light() {
+    std::vector<LightPoint> raw(static_cast<std::size_t>(columns_) * rows_);
+    for (int j = 0; j < rows_; ++j)
+      for (int i = 0; i < columns_; ++i)
+        if (const auto s = trace(i * kStep + 0.5 * kStep, j * kStep + 0.5 * kStep)) {
+          LightPoint& p = raw[static_cast<std::size_t>(j) * columns_ + i];
+          p = {s->point.cast<float>(), s->normal.cast<float>(), lights_.see(s->start, s->normal, i, j), s->mesh,
+               s->inner};
+        }
+    points_ = raw;
+    for (int j = 0; j < rows_; ++j)
+      for (int i = 0; i < columns_; ++i) {
+        LightPoint& p = points_[static_cast<std::size_t>(j) * columns_ + i];
+        if (p.mesh == std::numeric_limits<unsigned>::max()) continue;
+        float open = 0, key = 0, sum = 0;
+        for (int v = std::max(0, j - kBlur); v <= std::min(rows_ - 1, j + kBlur); ++v)
+          for (int u = std::max(0, i - kBlur); u <= std::min(columns_ - 1, i + kBlur); ++u) {
+            const LightPoint& q = raw[static_cast<std::size_t>(v) * columns_ + u];
+            const float w = same_surface(q, p.point, p.normal, p.mesh, p.inner);
+            open += w * q.seen.open;
+            key += w * q.seen.key;
+            sum += w;
+          }
+        if (sum > 0) p.seen = {open / sum, key / sum};
+      }
+  }
+
+  Visibility visibility(const Seen& s, double x, double y, int px, int py) const {
+    const double gx = x / kStep - 0.5, gy = y / kStep - 0.5;
+    const int i0 = static_cast<int>(std::floor(gx)), j0 = static_cast<int>(std::floor(gy));
+    const Eigen::Vector3f point = s.point.cast<float>(), normal = s.normal.cast<float>();
+    float open = 0, key = 0, sum = 0;
+    for (int dj = 0; dj <= 1; ++dj)
+      for (int di = 0; di <= 1; ++di) {
+        const int i = i0 + di, j = j0 + dj;
+        if (i < 0 || j < 0 || i >= columns_ || j >= rows_) continue;
+        const float near = static_cast<float>((1.0 - std::abs(gx - i)) * (1.0 - std::abs(gy - j))) + 0.02F;
+        const LightPoint& p = points_[static_cast<std::size_t>(j) * columns_ + i];
+        const float w = near * same_surface(p, point, normal, s.mesh, s.inner);
+        open += w * p.seen.open;
+        key += w * p.seen.key;
+        sum += w;
+      }
+    if (sum > 1e-3F) return {open / sum, key / sum};
+    return lights_.see(s.start, s.normal, px, py);  // a thin part that no lighting point met
+  }
+
+  /// No lighting point near the pixel saw the subject, so no ray within it will; parts thinner than that are lost.
+  bool empty_around(int x, int y) const {
+    const int i = x / kStep, j = y / kStep;
+    for (int v = std::max(0, j - 1); v <= std::min(rows_ - 1, j + 1); ++v)
+      for (int u = std::max(0, i - 1); u <= std::min(columns_ - 1, i + 1); ++u)
+        if (points_[static_cast<std::size_t>(v) * columns_ + u].mesh != std::numeric_limits<unsigned>::max())
+          return false;
+    return true;
+  }
+
+  Eigen::Vector4f look(double x, double y, int px, int py) const {
+    const auto s = trace(x, y);
+    if (!s) return ground(x, y);
+    const float light = lights_.shade(s->normal, visibility(*s, x, y, px, py), s->inner);
+    const Colour c = shoulder(light * textures_[s->mesh].at(s->u, s->v));
+    return {c[0], c[1], c[2], 1.0F};
+  }
+
+  /// A seamless sweep: one colour everywhere, darker only where the subject stands close.
+  Eigen::Vector4f ground(double x, double y) const {
+    const float dark = floor_shadow(x, y);
+    if (options_.ground == Ground::alpha) return {0, 0, 0, dark};
+    const Colour c = backdrop() * (1.0F - dark);
+    return {c[0], c[1], c[2], 1.0F};
+  }
+
+  void look_at_floor() {
+    floor_columns_ = options_.view_width / kFloorStep + 2;
+    const int rows = options_.view_height / kFloorStep + 2;
+    floor_.assign(static_cast<std::size_t>(floor_columns_) * rows, 0.0F);
+    const double half = -framing_.top_left.x();
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < floor_columns_; ++i) {
+        const Vec2 at = film(i * kFloorStep, j * kFloorStep);
+        const Vec3 direction = camera_.direction(at);
+        const double down = framing_.ground - eye_.y();
+        if (!(direction.y() * down > 0)) continue;
+        const Vec3 point = eye_ + direction * (down / direction.y());
+        const double away = std::hypot(point.x() - camera_.pivot.x(), point.z() - camera_.pivot.z()) / shadow_radius_;
+        if (away >= 1.0) continue;
+        // Neighbouring views meet without a step.
+        const double fade =
+            std::clamp(4.0 * (1.0 - away), 0.0, 1.0) * std::clamp((half - std::abs(at.x())) / (0.3 * half), 0.0, 1.0);
+        if (fade > 0)
+          floor_[static_cast<std::size_t>(j) * floor_columns_ + i] =
+              static_cast<float>(fade) * lights_.floor_shadow(point, i, j);
+      }
+  }
+
+  float floor_shadow(double x, double y) const {
+    const double gx = x / kFloorStep, gy = y / kFloorStep;
+    const int i = static_cast<int>(gx), j = static_cast<int>(gy);
+    const float fx = static_cast<float>(gx - i), fy = static_cast<float>(gy - j);
+    const float* p = &floor_[static_cast<std::size_t>(j) * floor_columns_ + i];
+    const float a = p[0] + fx * (p[1] - p[0]), b = p[floor_columns_] + fx * (p[floor_columns_ + 1] - p[floor_columns_]);
+    return a + fy * (b - a);
+  }
+
+  std::span<const RenderMesh> meshes_;
+  std::span<const TextureLookup> textures_;
+  const Tracer& tracer_;
+  const Framing& framing_;
+  const Camera& camera_;
+  const PreviewOptions& options_;
+  const Lights lights_;
+  const Vec3 eye_;
+  double shadow_radius_ = 0;  // [m] around the pivot in which the floor can be dark
+  int columns_ = 0, rows_ = 0, floor_columns_ = 0;
+  std::vector<LightPoint> points_;
+  std::vector<float> floor_;
+};
+
+}  // namespace
+
+void draw_view(std::span<const RenderMesh> meshes, std::span<const TextureLookup> textures, const Tracer& tracer,
+               const Framing& framing, const Camera& camera, const PreviewOptions& options, Image& picture, int left) {
+  View(meshes, textures, tracer, framing, camera, options).draw(picture, left);
+}
+
+}  // namespace vitrine
