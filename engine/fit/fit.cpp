@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "envelope.hpp"
+#include "gaps.hpp"
 #include "limb.hpp"
 
 namespace vitrine {
@@ -14,6 +15,55 @@ std::string millimetres(double metres) {
   return std::to_string(std::lround(metres * 1e3)) + " mm";
 }
 
+/// How much narrower [-] a panel is laid, level by level, so that its sides hang between trunk and arms and are not
+/// sewn around the arms. Sewing lets the cloth out again around the trunk.
+class Narrowing {
+ public:
+  /// `trunk`: the outline's nodes that belong to no limb. A garment without limbs has its armholes in the sides.
+  Narrowing(const Gaps& gaps, const std::vector<Vec2>& trunk, bool has_limbs) {
+    if (trunk.empty()) return;
+    bottom_ = top_ = trunk.front().y();
+    for (const Vec2& q : trunk) bottom_ = std::min(bottom_, q.y()), top_ = std::max(top_, q.y());
+    const int rows = static_cast<int>((top_ - bottom_) / step) + 1;
+    for (const int side : {-1, 1}) {
+      std::vector<double> width(static_cast<std::size_t>(rows), 0.0);
+      for (const Vec2& q : trunk) {
+        double& w = width[static_cast<std::size_t>((q.y() - bottom_) / step)];
+        w = std::max(w, side * q.x());
+      }
+      std::vector<double> raw;
+      for (int r = 0; r < rows; ++r) {
+        // The side runs straight between the outline's nodes: a level without one borrows from its neighbours.
+        double w = width[r];
+        for (int near = 1; w == 0 && near < rows; ++near)
+          w = std::max(r >= near ? width[r - near] : 0.0, r + near < rows ? width[r + near] : 0.0);
+        const double y = bottom_ + (r + 0.5) * step;
+        const double gap = has_limbs ? gaps.middle(y, side) : gaps.middle_or_armpit(y, side);
+        raw.push_back(w > 0 ? std::min(1.0, gap / w) : 1.0);
+      }
+      std::vector<double>& smooth = share_[side > 0];
+      for (int r = 0; r < rows; ++r) {
+        double sum = 0;
+        int count = 0;
+        for (int n = std::max(0, r - reach); n <= std::min(rows - 1, r + reach); ++n, ++count) sum += raw[n];
+        smooth.push_back(sum / count);
+      }
+    }
+  }
+  double operator()(const Vec2& q) const {
+    const std::vector<double>& share = share_[q.x() > 0];
+    if (share.empty()) return 1;
+    const auto row = static_cast<int>((q.y() - bottom_) / step);
+    return share[static_cast<std::size_t>(std::clamp(row, 0, static_cast<int>(share.size()) - 1))];
+  }
+
+ private:
+  static constexpr double step = 0.01;  // [m]
+  static constexpr int reach = 3;       // levels to either side
+  double bottom_ = 0, top_ = 0;
+  std::vector<double> share_[2];
+};
+
 }  // namespace
 
 Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pattern, const Mannequin& mannequin,
@@ -22,6 +72,7 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
   for (const Vec3& v : mannequin.mesh.vertices) body_height = std::max(body_height, v.y());
 
   const Envelope before(field, +1), behind(field, -1);
+  const Gaps gaps(mannequin, field);
   Placement placement;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
@@ -58,13 +109,20 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
       bends.push_back(*std::move(bend));
     }
 
+    std::vector<Vec2> trunk;
+    for (const Vec2& q : panel.outline)
+      if (std::all_of(bends.begin(), bends.end(), [&](const LimbBend& b) { return b.weight(q + shift) == 0; }))
+        trunk.push_back(q + shift);
+    const Narrowing narrowing(gaps, trunk, !bends.empty());
+
     const double outwards = panel.side == Side::front ? 1 : -1;
     const Envelope& sheet = panel.side == Side::front ? before : behind;
     std::vector<Vec3> nodes;
     nodes.reserve(mesh.nodes.size());
     for (const Vec2& rest : mesh.nodes) {
       const Vec2 placed = rest + shift;
-      Vec3 q(placed.x(), placed.y(), sheet(placed.x(), placed.y()) + outwards * options.clearance);
+      const double x = placed.x() * narrowing(placed);
+      Vec3 q(x, placed.y(), sheet(x, placed.y()) + outwards * options.clearance);
       for (const LimbBend& bend : bends) {
         const double weight = bend.weight(placed);
         if (weight > 0) q += weight * (bend.on_limb(placed, outwards) - q);

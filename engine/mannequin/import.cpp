@@ -176,7 +176,8 @@ bool faces_backwards(const TriMesh& mesh, double height) {
       back = std::min(back, v.z());
     }
   }
-  if (count == 0 || front < back) return false;
+  // A foot is 0.15 of the height long; stumps and pointed toes tell nothing.
+  if (count == 0 || front - back < 0.1 * height) return false;
   shin /= count;
   return shin - back > 1.3 * (front - shin);
 }

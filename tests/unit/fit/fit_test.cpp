@@ -21,11 +21,11 @@ Vec3 mirrored(Vec3 v) {
   return {-v.x(), v.y(), v.z()};
 }
 
-/// A trunk with two straight arms at about 42 degrees; landmarks of a long sleeve.
+/// A trunk with two straight arms, at about 42 degrees from the vertical if not told; landmarks of a long sleeve.
 struct Doll {
   Mannequin mannequin;
   DistanceField field;
-  Doll() {
+  explicit Doll(const Vec3& elbow = ::elbow, const Vec3& wrist = ::wrist) {
     for (const double y : {0.0, 1.7}) mannequin.mesh.vertices.push_back(Vec3(0, y, 0));
     auto& l = mannequin.landmarks;
     l["neck_left"] = Vec3(-0.06, 1.46, 0);
@@ -148,6 +148,46 @@ TEST(Fit, the_trunk_keeps_its_flat_shape) {
   ASSERT_TRUE(placed);
   const double width = (shirt.corner(*placed, 0, "hem_right") - shirt.corner(*placed, 0, "hem_left")).head<2>().norm();
   EXPECT_NEAR(width, 0.50, 1e-9);
+}
+
+TEST(Fit, sides_hang_between_trunk_and_arms_however_close_the_arms_are) {
+  GarmentTemplate garment;
+  Panel panel;
+  const std::vector<std::pair<std::string, Vec2>> corners{
+      {"neck_left", {-0.1, 0}},    {"armpit_left", {-0.25, -0.2}}, {"hem_left", {-0.25, -0.6}},
+      {"hem_right", {0.25, -0.6}}, {"armpit_right", {0.25, -0.2}}, {"neck_right", {0.1, 0}}};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto& [name, from] = corners[i];
+    const Vec2 to = corners[(i + 1) % corners.size()].second;
+    garment.features.push_back({name, name, -1, Turn::any});
+    panel.corner.push_back(static_cast<int>(panel.outline.size()));
+    for (int k = 0; k < 12; ++k) panel.outline.push_back(from + (to - from) * k / 12.0);
+  }
+  garment.anchors = {0, 5};
+  Pattern pattern;
+  for (const Side side : {Side::front, Side::back}) {
+    panel.side = side;
+    pattern.panels.push_back(panel);
+    pattern.meshes.push_back({panel.outline, {}});
+  }
+  for (const double degrees : {25.0, 32.0, 42.0}) {
+    const double a = degrees * M_PI / 180;
+    const Vec3 along(std::sin(a), -std::cos(a), 0);
+    const Doll doll(shoulder + 0.3 * along, shoulder + 0.55 * along);
+    const auto placed = place_panels(garment, pattern, doll.mannequin, doll.field);
+    ASSERT_TRUE(placed);
+    int looked_at = 0;
+    for (std::size_t i = 0; i < panel.outline.size(); ++i) {
+      // The first centimetres under the armpit are narrower than the voxels tell.
+      if (std::abs(panel.outline[i].x()) < 0.249 || panel.outline[i].y() > -0.22) continue;
+      const Vec3 q = (*placed)[0][i];
+      double least = 1;
+      for (double z = -0.3; z <= 0.3; z += 0.01) least = std::min(least, doll.field.distance({q.x(), q.y(), z}));
+      EXPECT_GT(least, 0) << degrees << " degrees, at height " << q.y();
+      ++looked_at;
+    }
+    EXPECT_GT(looked_at, 15);
+  }
 }
 
 TEST(Fit, a_panel_of_another_size_than_any_body_is_refused) {

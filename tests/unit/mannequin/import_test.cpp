@@ -69,6 +69,17 @@ TEST(ImportMannequin, takes_a_body_of_67_units_for_inches_and_one_of_five_for_no
   expect_refused(write_obj("feet", reference().mesh, 1 / 0.3048), "NOT_A_BODY");
 }
 
+TEST(ImportMannequin, leaves_a_body_without_feet_as_it_stands) {
+  // Toes and heels cut back to the ankle: stumps tell nothing about the front.
+  TriMesh mesh = reference().mesh;
+  for (Vec3& v : mesh.vertices)
+    if (v.y() < 0.12) v.z() = std::clamp(v.z(), -0.06, 0.02);
+  const Result<Mannequin> body = import_mannequin(write_obj("stumps", mesh));
+  ASSERT_TRUE(body) << body.error().message;
+  EXPECT_GT(body->landmarks.at("neck_front").z(), body->landmarks.at("neck_back").z());
+  for (const std::string& warning : body->warnings) EXPECT_EQ(warning.find("turned around"), std::string::npos);
+}
+
 TEST(ImportMannequin, turns_around_a_body_whose_feet_point_to_the_back) {
   TriMesh mesh = reference().mesh;
   for (Vec3& v : mesh.vertices) v = Vec3(-v.x(), v.y(), -v.z());
