@@ -129,7 +129,8 @@ SurfacePatches find_patches(const Surface& surface, const DistanceField& field, 
               });
     // Trilinear interpolation across a fold errs by a quarter of the slope's change along each axis times the spacing.
     float turn = 0;
-    for (std::size_t k = i; k < end && pairs[k].distance2 <= fold_reach * fold_reach * h * h; ++k)
+    for (std::size_t k = i;
+         k < end && pairs[k].distance2 <= fold_reach * fold_reach * h * h && 0.25F * turn < most_reach; ++k)
       for (std::size_t m = i; m < k; ++m) turn = std::max(turn, (normal(k) - normal(m)).lpNorm<1>());
     const float reach = std::min(0.25F * turn, most_reach) * h;
     if (reach < 1e-7F) continue;

@@ -22,7 +22,7 @@ constexpr int patience = 5;
 constexpr double turn_most = 0.05;  // [dt]
 
 constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
-constexpr int measure_every = 100, first_rounds = 12, later_rounds = 3;  // of power iteration
+constexpr int measure_every = 100, first_rounds = 6, later_rounds = 3;  // of power iteration
 constexpr double probe = 1e-7;                                           // [m]
 constexpr int lattice_every = 25, hold_for = 50;                         // steps
 constexpr int floor_patience = 2000;                                     // steps without halving the residual
