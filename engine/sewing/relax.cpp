@@ -23,9 +23,9 @@ constexpr double turn_most = 0.05;  // [dt]
 
 constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
 constexpr int measure_every = 100, first_rounds = 6, later_rounds = 3;  // of power iteration
-constexpr double probe = 1e-7;                                           // [m]
-constexpr int lattice_every = 25, hold_for = 50;                         // steps
-constexpr int floor_patience = 2000;                                     // steps without halving the residual
+constexpr double probe = 1e-7;                                          // [m]
+constexpr int lattice_every = 25, hold_for = 50;                        // steps
+constexpr int floor_patience = 2000;                                    // steps without halving the residual
 
 /// The part of a node's force that friction cannot hold. `push` is the body's push on the node.
 Vec3 outside_cone(const Vec3& force, const Vec3& push, double mu) {

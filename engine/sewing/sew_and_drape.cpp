@@ -94,9 +94,9 @@ class Tailor {
     return cloth;
   }
 
-  Contact contact_for(const Cloth& cloth, double dx, Middles middles = Middles::where_needed) const {
+  Contact contact_for(const Cloth& cloth, double dx) const {
     // A node's ordinary load: the column of cloth that hangs below it.
-    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_, middles_ ? Middles::all : middles);
+    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_, middles_ ? Middles::all : Middles::where_needed);
   }
 
   /// Draws the partners that are not sewn yet together and sews those that meet, in rounds: first the pairs that start
