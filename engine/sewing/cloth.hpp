@@ -57,8 +57,8 @@ Nodes number_nodes(const Pattern& pattern, std::span<const char> weld, int& coun
 
 /// Springs, hinges and masses of the pattern. Sheet stiffness K becomes k = K * A / L^2 per edge (A: area of the
 /// triangles at the edge), so that a finer mesh is the same fabric; on an equilateral mesh Young's modulus is K itself.
-/// Bending: quadratic isometric hinges (Bergou et al. 2006), also across welded seams; ten times as stiff within 2 cm of
-/// an open edge of a panel's outline, where cloth is hemmed or bound.
+/// Bending: quadratic isometric hinges (Bergou et al. 2006), also across welded seams; ten times as stiff within 2 cm
+/// of an open edge of a panel's outline, where cloth is hemmed or bound.
 Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const Positions& start,
                   const SheetStiffness& sheet, double density, double gravity, bool bending);
 

@@ -5,7 +5,8 @@
 
 // AVX2 without fused multiply-adds where the machine has it: the same operations in the same order, so the same bytes.
 // A test builds with VITRINE_PLAIN, without it, and compares.
-#if !defined(VITRINE_PLAIN) && defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if !defined(VITRINE_PLAIN) && defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define VITRINE_WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define VITRINE_WIDE

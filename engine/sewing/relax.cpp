@@ -7,6 +7,7 @@
 
 #include "coarse_space.hpp"
 #include "lanes.hpp"
+#include "residual.hpp"
 #include "springs.hpp"
 
 namespace vitrine::sewing {
@@ -26,21 +27,6 @@ constexpr int measure_every = 100, first_rounds = 6, later_rounds = 3;  // of po
 constexpr double probe = 1e-7;                                          // [m]
 constexpr int lattice_every = 25, hold_for = 50;                        // steps
 constexpr int floor_patience = 2000;                                    // steps without halving the residual
-
-/// The part of a node's force that friction cannot hold. `push` is the body's push on the node.
-Vec3 outside_cone(const Vec3& force, const Vec3& push, double mu) {
-  const double load = push.norm();
-  if (!(load > 0) || mu == 0) return force;
-  const Vec3 n = push / load;
-  const double along = force.dot(n);
-  const Vec3 tangent = force - along * n;
-  const double t = tangent.norm(), held = mu * load;
-  return along * n + (t > held ? Vec3(tangent * ((t - held) / t)) : Vec3(Vec3::Zero()));
-}
-
-Vec3 at(const Packed& v, int n) {
-  return {v[4 * n], v[4 * n + 1], v[4 * n + 2]};
-}
 
 void put(Packed& v, int n, const Vec3& value) {
   for (int a = 0; a < 3; ++a) v[4 * n + a] = value[a];
@@ -384,29 +370,6 @@ class Fire {
 
 RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options, Layers* layers) {
   return Fire(cloth, contact, options, layers).run();
-}
-
-double residual_of(const Cloth& c, Contact* contact, double friction, Layers* layers) {
-  std::vector<double> cloth_force(c.x.size(), 0.0);
-  internal_forces(c, c.x, cloth_force);
-  Packed x, force;
-  pack(c.x, x);
-  pack(cloth_force, force);
-  if (layers) {
-    layers->look(x);
-    layers->forces(x, force);
-  }
-  if (contact) {
-    wake(*contact);
-    contact_forces(*contact, x, std::vector<double>(packed_nodes(c.size), 0.0), force, true);
-  }
-  double sum = 0;
-  for (int n = 0; n < c.size; ++n) {
-    if (c.pinned[n]) continue;
-    const Vec3 push = contact ? at(contact->normal, n) : Vec3(Vec3::Zero());
-    sum += outside_cone(at(force, n), push, friction).norm();
-  }
-  return sum / c.scale;
 }
 
 }  // namespace vitrine::sewing

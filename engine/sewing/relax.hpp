@@ -32,8 +32,4 @@ struct RelaxOutcome {
 /// `layers` may be null: then front and back pass through each other where no body parts them.
 RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options, Layers* layers = nullptr);
 
-/// sum |net force| / scale over the free nodes, where friction takes up to mu N of the tangential force at nodes the
-/// body pushes. Looks at every contact sample afresh.
-double residual_of(const Cloth& cloth, Contact* contact, double friction, Layers* layers = nullptr);
-
 }  // namespace vitrine::sewing

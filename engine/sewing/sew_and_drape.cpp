@@ -11,6 +11,7 @@
 #include "layers.hpp"
 #include "prolong.hpp"
 #include "relax.hpp"
+#include "residual.hpp"
 #include "sew.hpp"
 #include "vitrine/sewing.hpp"
 

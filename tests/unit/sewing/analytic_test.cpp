@@ -9,6 +9,7 @@
 #include "contact.hpp"
 #include "prolong.hpp"
 #include "relax.hpp"
+#include "residual.hpp"
 #include "scene.hpp"
 #include "smooth_field.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "audit.hpp"
 #include "relax.hpp"
+#include "residual.hpp"
 #include "scene.hpp"
 #include "vitrine/sewing.hpp"
 

@@ -9,6 +9,7 @@
 #include "cloth.hpp"
 #include "coarse_space.hpp"
 #include "relax.hpp"
+#include "residual.hpp"
 #include "scene.hpp"
 #include "springs.hpp"
 #include "vitrine/sewing.hpp"
