@@ -153,11 +153,10 @@ int main(int argc, char** argv) {
           int steps = 0;
           for (const LevelFigures& l : d.levels) steps += l.iterations;
           char row[400];
-          std::snprintf(row, sizeof row, "%s,%s,%s,%s,%s,%.2e,%.2f,%.3f,%.3f,%.2f,%d,%d,%.2f,%d,%d,%.1f,%.3f\n", item.name.c_str(),
-                        item.garment.c_str(), fabric.name.c_str(), body_name.c_str(), judged.c_str(), d.residual,
-                        d.seam_gap_mm_max, d.penetration_mm_max, d.stretch_p99, d.strain_max, last.nodes, steps,
-                        last.change_mean_mm, d.self_touching, d.self_crossed,
-                        d.self_crossed_mm_max, seconds);
+          std::snprintf(row, sizeof row, "%s,%s,%s,%s,%s,%.2e,%.2f,%.3f,%.3f,%.2f,%d,%d,%.2f,%d,%d,%.1f,%.3f\n",
+                        item.name.c_str(), item.garment.c_str(), fabric.name.c_str(), body_name.c_str(), judged.c_str(),
+                        d.residual, d.seam_gap_mm_max, d.penetration_mm_max, d.stretch_p99, d.strain_max, last.nodes,
+                        steps, last.change_mean_mm, d.self_touching, d.self_crossed, d.self_crossed_mm_max, seconds);
           out << row;
           if (judged != "OK") std::printf("%s", row);
           std::fflush(stdout);

@@ -28,8 +28,9 @@ void list_effects(const SewingOptions& options, const SceneNotes& notes, Drape& 
                   : "tension and shear springs (paper eq. (2)), k spread over the mesh by area",
               options.node_mass > 0 ? "nodes of one mass each, as asked" : "weight by area",
               "seams drawn together and welded", "contact with the voxel body at the skin offset"};
-  skipped.push_back(text("voxels outside the garment's reach: %.0f %% of the field are never looked at",
-                         100 * (1 - notes.voxels_in_reach)));
+  skipped.push_back(
+      text("contact out of the garment's reach: %.0f %% of the voxels, other parts of the body among them",
+           100 * (1 - notes.voxels_in_reach)));
   if (options.bending && notes.bend > 0)
     modelled.push_back("bending, also across seams, and stiffer in hems and bands");
   else

@@ -14,9 +14,9 @@ namespace vitrine {
 using Bytes = std::vector<std::uint8_t>;
 
 struct GlbOptions {
-  int jpeg_quality = 97;                ///< [-] 1..100, of the textures
-  int lowest_quality = 80;              ///< [-] 1..jpeg_quality: as far as it is lowered, in steps, to keep the next line
-  int quality_step = 2;                 ///< [-] at least 1
+  int jpeg_quality = 97;    ///< [-] 1..100, of the textures
+  int lowest_quality = 80;  ///< [-] 1..jpeg_quality: as far as it is lowered, in steps, to keep the next line
+  int quality_step = 2;     ///< [-] at least 1
   std::size_t texture_bytes = 820'000;  ///< [byte] all JPEGs together; above, the quality is lowered
   std::string generator = "Vitrine";    ///< asset.generator
   std::string copyright{};              ///< asset.copyright; empty = none
