@@ -16,6 +16,7 @@ constexpr double kKeyPower = 0.78, kFillPower = 0.12, kSky = 0.54;
 constexpr double kKeySpread = 0.22;  // tangent of the softbox' half angle
 constexpr double kSkyBelow = 0.62;   // light from below against light from above
 constexpr double kInnerSide = 0.72;  // cloth seen from inside gets what comes through
+constexpr double kThrough = 0.30;    // and where it faces the body closely: light through the cloth and between the two
 constexpr double kReach = 0.32;      // [m] how far folds and limbs shade each other
 constexpr double kFloorDark = 0.75;  // how dark a fully covered floor gets
 constexpr double kFloorCast = 0.10;  // the key light's own shadow on it
@@ -83,6 +84,8 @@ float Lights::shade(const Vec3& normal, const Visibility& seen, bool inner) cons
   double light = kSky * seen.open * (kSkyBelow + (1.0 - kSkyBelow) * (0.5 + 0.5 * normal.y()));
   light += kFillPower * std::max(0.0, normal.dot(fill_)) * seen.open;
   light += kKeyPower * std::max(0.0, normal.dot(key_)) * seen.key;
+  // Without it the inside of a collar would be black and not of the garment's own colour.
+  if (inner) light += kThrough * (1.0 - seen.open);
   return static_cast<float>(inner ? kInnerSide * light : light);
 }
 

@@ -170,6 +170,31 @@ TEST(Preview, shows_the_inner_side_darker_than_the_outer) {
   EXPECT_GT(inner, outer / 2);
 }
 
+TEST(Preview, the_inner_side_keeps_its_colour_where_hardly_any_sky_is_seen) {
+  // A sheet's inner face at the bottom of a slot 30 cm deep and 4 cm wide, looked into from behind.
+  RenderMesh sheet, walls;
+  sheet.name = "garment";
+  sheet.colour = {0.5, 0.1, 0.1};
+  walls.name = "walls";
+  walls.colour = {0.02, 0.02, 0.02};
+  const auto quad = [](RenderMesh& m, const std::array<Vec3, 4>& corners, const Vec3& normal) {
+    const auto base = static_cast<std::uint32_t>(m.positions.size());
+    m.positions.insert(m.positions.end(), corners.begin(), corners.end());
+    m.normals.insert(m.normals.end(), 4, normal);
+    m.triangles.push_back({base, base + 1, base + 2});
+    m.triangles.push_back({base, base + 2, base + 3});
+  };
+  quad(sheet, {Vec3(-0.3, 0.5, 0), Vec3(0.3, 0.5, 0), Vec3(0.3, 1.3, 0), Vec3(-0.3, 1.3, 0)}, {0, 0, 1});
+  for (const double x : {-0.02, 0.02})
+    quad(walls, {Vec3(x, 0.5, 0), Vec3(x, 0.5, -0.3), Vec3(x, 1.3, -0.3), Vec3(x, 1.3, 0)}, {x > 0 ? -1.0 : 1.0, 0, 0});
+  PreviewOptions options = kSmall;
+  options.occlusion_rays = 32;
+  const Image picture = render({sheet, walls}, options);
+  const std::uint8_t* inner = picture.at(240 + 60, 90);
+  EXPECT_GT(inner[0], 88);  // 72 by rays alone
+  EXPECT_GT(inner[0], 3 * inner[1] / 2);
+}
+
 TEST(Preview, grounds_a_standing_body_with_a_contact_shadow) {
   RenderMesh body = tube(0.12);
   for (Vec3& p : body.positions) p.y() -= 0.6;
