@@ -2,6 +2,8 @@
 // What the photo on the garment is worth, measured on the test generator's photos: fidelity inside the panel, board
 // that shows at an outline, the step of colour across sewn seams, and the price of a picture and of occlusion.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -118,6 +120,52 @@ void time_pictures(const PluginRegistry& registry, const std::shared_ptr<const B
   }
 }
 
+/// Occlusion as a viewer reads it, in levels of 0 to 255, at a few places of each triangle.
+std::vector<double> shown_occlusion(const RenderMesh& mesh) {
+  std::vector<double> levels;
+  const Image& picture = mesh.occlusion;
+  for (const Triangle& t : mesh.triangles)
+    for (const double w : {1.0 / 3, 0.8, 0.1}) {
+      const Vec2 uv = w * mesh.uv[t[0]] + 0.5 * (1 - w) * (mesh.uv[t[1]] + mesh.uv[t[2]]);
+      const double x = std::clamp(uv.x() * picture.width - 0.5, 0.0, picture.width - 1.001);
+      const double y = std::clamp(uv.y() * picture.height - 0.5, 0.0, picture.height - 1.001);
+      const int i = static_cast<int>(x), j = static_cast<int>(y);
+      const double a = *picture.at(i, j) + (x - i) * (*picture.at(i + 1, j) - *picture.at(i, j));
+      const double b = *picture.at(i, j + 1) + (x - i) * (*picture.at(i + 1, j + 1) - *picture.at(i, j + 1));
+      levels.push_back(a + (y - j) * (b - a));
+    }
+  return levels;
+}
+
+/// What coarser occlusion and fewer rays cost and change, against 512 rays for each texel of 1.5 mm.
+void trade_occlusion(const PluginRegistry& registry, const std::shared_ptr<const Body>& body, const Settings& s) {
+  std::printf("\nocclusion: processor seconds, and difference from 512 rays at 1.5 mm in levels of 0 to 255\n");
+  std::printf("%-22s %9s %6s %9s %9s %9s %11s\n", "item", "texel mm", "rays", "seconds", "mean", "p99", "body mean");
+  for (TextureCase& c : make_cases(Variant::plain, s.folder, registry, body)) {
+    c.request.texture.max_size = s.size;
+    const Conversion item = convert(c.request);
+    if (item.error) continue;
+    RenderMesh garment = item.garment, mannequin = item.mannequin;
+    if (bake_occlusion(garment, mannequin, {.texel = 0.0015, .rays = 512})) return;
+    const std::vector<double> wanted = shown_occlusion(garment);
+    const std::vector<float> shade = mannequin.shade;
+    for (const double texel : {0.003, 0.006, 0.012})
+      for (const int rays : {16, 32, 64}) {
+        const double start = seconds();
+        if (bake_occlusion(garment, mannequin, {.texel = texel, .rays = rays})) return;
+        const double spent = seconds() - start;
+        std::vector<double> off = shown_occlusion(garment);
+        double sum = 0, body_sum = 0;
+        for (std::size_t i = 0; i < off.size(); ++i) sum += off[i] = std::abs(off[i] - wanted[i]);
+        for (std::size_t v = 0; v < shade.size(); ++v) body_sum += 255 * std::abs(shade[v] - mannequin.shade[v]);
+        std::sort(off.begin(), off.end());
+        std::printf("%-22s %9.1f %6d %9.3f %9.2f %9.2f %11.2f\n", c.name.c_str(), 1e3 * texel, rays, spent,
+                    sum / static_cast<double>(off.size()), off[off.size() * 99 / 100],
+                    body_sum / static_cast<double>(shade.size()));
+      }
+  }
+}
+
 }  // namespace
 }  // namespace vitrine::bench
 
@@ -133,6 +181,8 @@ int main(int argc, char** argv) {
   app.add_option("--atlases", s.out, "Folder to keep the atlases in");
   app.add_flag("!--no-pictures", s.pictures, "Leave out the times");
   app.add_flag("!--no-texture", texture, "Only the times");
+  bool occlusion = false;
+  app.add_flag("--occlusion", occlusion, "Also what coarser occlusion and fewer rays cost and change");
   CLI11_PARSE(app, argc, argv);
   PluginSearch search;
   search.folders = {std::string(VITRINE_BINARY_DIR) + "/lib/vitrine-1/plugins"};
@@ -140,7 +190,7 @@ int main(int argc, char** argv) {
   const PluginRegistry registry = PluginRegistry::load(search);
   auto body = std::make_shared<Body>();
   body->mannequin = *build_mannequin({});
-  if (s.pictures) body->field = *voxelise(body->mannequin.mesh);
+  if (s.pictures || occlusion) body->field = *voxelise(body->mannequin.mesh);
   std::string pattern = (std::filesystem::temp_directory_path() / "vitrine_texture_XXXXXX").string();
   if (!::mkdtemp(pattern.data())) return 73;
   s.folder = pattern;
@@ -150,6 +200,7 @@ int main(int argc, char** argv) {
     run(Variant::darker_back, "back photo with 15 % less light", s, registry, body);
   }
   if (s.pictures) time_pictures(registry, body, s);
+  if (occlusion) trade_occlusion(registry, body, s);
   std::filesystem::remove_all(s.folder);
   return 0;
 }

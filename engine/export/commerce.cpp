@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "commerce_uv.hpp"
 #include "gltf.hpp"
@@ -78,10 +79,10 @@ bool read_triangles(const tinygltf::Model& m, const tinygltf::Primitive& p, std:
 Image decode(const tinygltf::Image& image) {
   if (image.image.empty()) return {};
   const cv::Mat bgr = cv::imdecode(image.image, cv::IMREAD_COLOR);
+  if (bgr.empty()) return {};
   Image out(bgr.cols, bgr.rows, 3);
-  for (int y = 0; y < bgr.rows; ++y)
-    for (int x = 0; x < bgr.cols; ++x)
-      for (int c = 0; c < 3; ++c) out.at(x, y)[c] = bgr.at<cv::Vec3b>(y, x)[2 - c];
+  cv::Mat rgb(bgr.size(), CV_8UC3, out.data.data());
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
   return out;
 }
 

@@ -37,18 +37,25 @@ void each_texel(const std::array<Vec2, 3>& p, int width, int height, F&& visit) 
   const double top = std::min({p[0].y(), p[1].y(), p[2].y()}), bottom = std::max({p[0].y(), p[1].y(), p[2].y()});
   std::array<Vec2, 3> q = p;
   if (twice_area(q[0], q[1], q[2]) < 0) std::swap(q[1], q[2]);
+  struct Edge {
+    Vec2 a, way;
+    bool turned;
+  };
+  std::array<Edge, 3> edges;
+  for (int k = 0; k < 3; ++k) {
+    // Both triangles of an edge see the very same numbers, with the sign turned.
+    Vec2 a = q[k], b = q[(k + 1) % 3];
+    const bool turned = std::lexicographical_compare(b.data(), b.data() + 2, a.data(), a.data() + 2);
+    if (turned) std::swap(a, b);
+    edges[k] = {a, b - a, turned};
+  }
   for (int y = std::max(0, static_cast<int>(std::floor(top))); y <= std::min(height - 1, static_cast<int>(bottom)); ++y)
     for (int x = std::max(0, static_cast<int>(std::floor(left))); x <= std::min(width - 1, static_cast<int>(right));
          ++x) {
-      const Vec2 centre(x + 0.5, y + 0.5);
       bool inside = true;
-      for (int k = 0; k < 3 && inside; ++k) {
-        // Both triangles of an edge see the very same numbers, with the sign turned.
-        Vec2 a = q[k], b = q[(k + 1) % 3];
-        const bool turned = std::lexicographical_compare(b.data(), b.data() + 2, a.data(), a.data() + 2);
-        if (turned) std::swap(a, b);
-        const double side = turned ? -twice_area(a, b, centre) : twice_area(a, b, centre);
-        inside = side > 0 || (side == 0 && turned);
+      for (const Edge& e : edges) {
+        const double side = e.way.x() * (y + 0.5 - e.a.y()) - e.way.y() * (x + 0.5 - e.a.x());
+        inside = inside && (e.turned ? side <= 0 : side > 0);
       }
       if (inside) visit(x, y);
     }

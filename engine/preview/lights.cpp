@@ -37,7 +37,8 @@ Colour shoulder(const Colour& c) {
   return c * ((kShoulder + room * (1.0F - std::exp((kShoulder - top) / room))) / top);
 }
 
-Lights::Lights(const Tracer& tracer, const Camera& camera, int rays) : tracer_(tracer), rays_(rays) {
+Lights::Lights(const Tracer& tracer, const Camera& camera, int rays)
+    : tracer_(tracer), rays_(rays), sky_(tracer, rays, kReach), sky_over_floor_(tracer, 4 * rays, kFloorReach) {
   const auto world = [&](const Vec3& l) {
     return Vec3(l.x() * camera.right + l.y() * camera.up + l.z() * camera.back);
   };
@@ -45,38 +46,29 @@ Lights::Lights(const Tracer& tracer, const Camera& camera, int rays) : tracer_(t
   fill_ = world(kFill);
 }
 
-/// Near things count more than far ones because each ray has a reach of its own.
-float Lights::openness(const Vec3& point, const Vec3& normal, double reach, int rays, int x, int y) const {
-  if (rays == 0) return 1.0F;
-  const Sequence sequence(x, y, 1);
-  int open = 0;
-  for (int k = 0; k < rays; ++k)
-    if (!tracer_.blocked(point, cosine_direction(normal, sequence.point(k)), reach * (0.06 + 0.94 * sequence.third(k))))
-      ++open;
-  return static_cast<float>(open) / static_cast<float>(rays);
-}
-
 float Lights::lit(const Vec3& point, double spread, int rays, int x, int y) const {
   const Sequence sequence(x, y, 2);
   int open = 0;
   for (int k = 0; k < rays; ++k)
-    if (!tracer_.blocked(point, cone_direction(key_, spread, sequence.point(k)), kFarthest)) ++open;
+    open += !tracer_.blocked(point, cone_direction(key_, spread, sequence.point(k)), kFarthest);
   return static_cast<float>(open) / static_cast<float>(rays);
 }
 
-Visibility Lights::see(const Vec3& start, const Vec3& normal, int x, int y) const {
+Visibility Lights::see(const Vec3& start, const Vec3& normal, double baked, int x, int y) const {
   Visibility v;
-  v.open = openness(start, normal, kReach, rays_, x, y);
+  if (baked >= 0)
+    v.open = static_cast<float>(baked);
+  else if (rays_ > 0)
+    v.open = static_cast<float>(sky_.open(start, normal, Sequence(x, y, 1)));
   v.key = normal.dot(key_) > -0.1 ? lit(start, kKeySpread, std::max(1, rays_ / 3), x, y) : 0.0F;
   return v;
 }
 
 float Lights::floor_shadow(const Vec3& point, int x, int y) const {
-  // Few points are asked for the floor's soft shadow, so that each may cost more.
-  const int rays = 4 * rays_;
+  // Few points are asked for the floor's soft shadow, so that each may cost four times as much.
   const Vec3 start = point + kLift * Vec3::UnitY();
-  const double covered = 1.0 - openness(start, Vec3::UnitY(), kFloorReach, rays, x, y);
-  const double shadowed = 1.0 - lit(start, 2.0 * kKeySpread, std::max(1, rays / 2), x, y);
+  const double covered = rays_ > 0 ? 1.0 - sky_over_floor_.open(start, Vec3::UnitY(), Sequence(x, y, 1)) : 0.0;
+  const double shadowed = 1.0 - lit(start, 2.0 * kKeySpread, std::max(1, 2 * rays_), x, y);
   return static_cast<float>(std::min(1.0, kFloorDark * covered + kFloorCast * shadowed));
 }
 

@@ -17,20 +17,21 @@ class Lights {
  public:
   Lights(const Tracer& tracer, const Camera& camera, int rays);
 
-  /// Rays from a point; `x`, `y` name the place in the picture that the rays' pattern belongs to.
-  Visibility see(const Vec3& start, const Vec3& normal, int x, int y) const;
+  /// Rays from a point; `x`, `y` name the place in the picture that the rays' pattern belongs to. Openness that is
+  /// known already (`baked` >= 0) is taken as it is.
+  Visibility see(const Vec3& start, const Vec3& normal, double baked, int x, int y) const;
   /// How dark the floor is under and beside the subject, 0 to 1.
   float floor_shadow(const Vec3& point, int x, int y) const;
   /// Light that leaves matte white cloth.
   float shade(const Vec3& normal, const Visibility& seen, bool inner) const;
 
  private:
-  float openness(const Vec3& point, const Vec3& normal, double reach, int rays, int x, int y) const;
   float lit(const Vec3& point, double spread, int rays, int x, int y) const;
 
   const Tracer& tracer_;
   Vec3 key_, fill_;
   int rays_;
+  Sky sky_, sky_over_floor_;
 };
 
 constexpr double kLift = 6e-4;        ///< [m] off the surface; the cloth lies 4 mm off the body

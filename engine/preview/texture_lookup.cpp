@@ -35,10 +35,40 @@ float srgb_to_linear(std::uint8_t v) {
   return table[v];
 }
 
+namespace {
+
+double encoded(double linear) {
+  return 255.0 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+}
+
+/// A power for each channel of each pixel costs as much as tracing it: the rounded code of any value is that of its
+/// cell in a table, or one of the next few.
+struct CodeTable {
+  static constexpr int cells = 4096;
+  std::array<std::uint8_t, cells> code{};  // at the cell's lower end
+  std::array<double, 256> upper{};         // the least value whose code is larger
+  CodeTable() {
+    for (int i = 0; i < cells; ++i) code[i] = static_cast<std::uint8_t>(std::lround(encoded(i / double{cells})));
+    for (int c = 0; c < 255; ++c) {
+      double low = 0, high = 1;
+      for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        (std::lround(encoded(middle)) > c ? high : low) = middle;
+      }
+      upper[c] = high;
+    }
+    upper[255] = 2;
+  }
+};
+
+}  // namespace
+
 std::uint8_t linear_to_srgb(double v) {
+  static const CodeTable table;
   const double c = std::clamp(v, 0.0, 1.0);
-  const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * s));
+  std::uint8_t code = table.code[std::min(CodeTable::cells - 1, static_cast<int>(c * CodeTable::cells))];
+  while (c >= table.upper[code]) ++code;
+  return code;
 }
 
 TextureLookup::TextureLookup(const RenderMesh& mesh, double footprint)

@@ -12,7 +12,8 @@
 namespace vitrine {
 namespace {
 
-// Occlusion and soft shadows change slowly along a surface: their rays are shot from every second pixel of every second
+// Occlusion and soft shadows change slowly along a surface. What the mesh brings along of them is read; for the rest
+// rays are shot from every second pixel of every second
 // row, evened out over neighbours on the same surface, and read from there; what changes quickly, the lie of the cloth
 // and its colour, is looked up for each ray.
 constexpr int kStep = 2;              // [px] between lighting points
@@ -24,9 +25,25 @@ constexpr float kSameFacing = 0.80F;  // cosine between normals: beyond, another
 struct Seen {
   Vec3 point, normal, start;
   double u = 0, v = 0;
+  double baked = -1;  // how open the outer face lies, where that was baked into the mesh; < 0 where not
   unsigned mesh = 0;
   bool inner = false;
 };
+
+/// Baked occlusion, as a viewer of the mesh reads it; -1 for a mesh without.
+double baked_openness(const RenderMesh& mesh, const Triangle& t, const std::array<double, 3>& w, double u, double v) {
+  if (mesh.shade.size() == mesh.positions.size() && !mesh.shade.empty())
+    return w[0] * mesh.shade[t[0]] + w[1] * mesh.shade[t[1]] + w[2] * mesh.shade[t[2]];
+  const Image& picture = mesh.occlusion;
+  if (picture.empty() || picture.channels != 1 || mesh.uv.empty()) return -1;
+  const double x = std::clamp(u * picture.width - 0.5, 0.0, picture.width - 1.0);
+  const double y = std::clamp(v * picture.height - 0.5, 0.0, picture.height - 1.0);
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, picture.width - 1), y1 = std::min(y0 + 1, picture.height - 1);
+  const double a = *picture.at(x0, y0) + (x - x0) * (*picture.at(x1, y0) - *picture.at(x0, y0));
+  const double b = *picture.at(x0, y1) + (x - x0) * (*picture.at(x1, y1) - *picture.at(x0, y1));
+  return (a + (y - y0) * (b - a)) / 255.0;
+}
 
 /// A place where the light was looked at.
 struct LightPoint {
@@ -66,9 +83,16 @@ class View {
         if (empty_around(x, y)) {
           sum = static_cast<float>(options_.samples) * ground(x + 0.5, y + 0.5);
         } else {
-          for (int s = 0; s < options_.samples; ++s) {
-            const Vec2 place = places.point(s);
-            sum += look(x + place.x(), y + place.y(), x, y);
+          for (int s = 0; s < options_.samples; s += 4) {
+            std::array<Vec2, 4> at;
+            std::array<Vec3, 4> directions;
+            for (int k = 0; k < 4; ++k) {
+              at[k] = Vec2(x, y) + places.point(s + k);
+              directions[k] = camera_.direction(film(at[k].x(), at[k].y()));
+            }
+            const auto hits = tracer_.first_hits(eye_, directions);
+            for (int k = 0; k < std::min(4, options_.samples - s); ++k)
+              sum += look(at[k], seen(directions[k], hits[k]), x, y);
           }
         }
         sum /= static_cast<float>(options_.samples);
@@ -85,7 +109,10 @@ class View {
 
   std::optional<Seen> trace(double x, double y) const {
     const Vec3 direction = camera_.direction(film(x, y));
-    const auto hit = tracer_.first_hit(eye_, direction);
+    return seen(direction, tracer_.first_hit(eye_, direction));
+  }
+
+  std::optional<Seen> seen(const Vec3& direction, const std::optional<Hit>& hit) const {
     if (!hit) return std::nullopt;
     const RenderMesh& mesh = meshes_[hit->mesh];
     const Triangle& t = mesh.triangles[hit->triangle];
@@ -107,6 +134,7 @@ class View {
         s.u += w[i] * mesh.uv[t[i]].x();
         s.v += w[i] * mesh.uv[t[i]].y();
       }
+    if (!s.inner) s.baked = baked_openness(mesh, t, w, s.u, s.v);
     return s;
   }
 
@@ -126,8 +154,8 @@ class View {
       for (int i = 0; i < columns_; ++i)
         if (const auto s = trace(i * kStep + 0.5 * kStep, j * kStep + 0.5 * kStep)) {
           LightPoint& p = raw[static_cast<std::size_t>(j) * columns_ + i];
-          p = {s->point.cast<float>(), s->normal.cast<float>(), lights_.see(s->start, s->normal, i, j), s->mesh,
-               s->inner};
+          p = {s->point.cast<float>(), s->normal.cast<float>(), lights_.see(s->start, s->normal, s->baked, i, j),
+               s->mesh, s->inner};
         }
     points_ = raw;
     for (int j = 0; j < rows_; ++j)
@@ -164,7 +192,7 @@ class View {
         sum += w;
       }
     if (sum > 1e-3F) return {open / sum, key / sum};
-    return lights_.see(s.start, s.normal, px, py);  // a thin part that no lighting point met
+    return lights_.see(s.start, s.normal, s.baked, px, py);  // a thin part that no lighting point met
   }
 
   /// No lighting point near the pixel saw the subject, so no ray within it will; parts thinner than that are lost.
@@ -177,10 +205,9 @@ class View {
     return true;
   }
 
-  Eigen::Vector4f look(double x, double y, int px, int py) const {
-    const auto s = trace(x, y);
-    if (!s) return ground(x, y);
-    const float light = lights_.shade(s->normal, visibility(*s, x, y, px, py), s->inner);
+  Eigen::Vector4f look(const Vec2& at, const std::optional<Seen>& s, int px, int py) const {
+    if (!s) return ground(at.x(), at.y());
+    const float light = lights_.shade(s->normal, visibility(*s, at.x(), at.y(), px, py), s->inner);
     const Colour c = shoulder(light * textures_[s->mesh].at(s->u, s->v));
     return {c[0], c[1], c[2], 1.0F};
   }

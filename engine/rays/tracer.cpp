@@ -40,6 +40,20 @@ void set_ray(RTCRay& ray, const Vec3& from, const Vec3& direction, float near, f
   ray.flags = 0;
 }
 
+alignas(16) constexpr int all_valid[4] = {-1, -1, -1, -1};
+
+void set_rays(RTCRay4& rays, const Vec3& from, const std::array<Vec3, 4>& directions) {
+  for (int i = 0; i < 4; ++i) {
+    rays.org_x[i] = static_cast<float>(from.x());
+    rays.org_y[i] = static_cast<float>(from.y());
+    rays.org_z[i] = static_cast<float>(from.z());
+    rays.dir_x[i] = static_cast<float>(directions[i].x());
+    rays.dir_y[i] = static_cast<float>(directions[i].y());
+    rays.dir_z[i] = static_cast<float>(directions[i].z());
+    rays.mask[i] = std::numeric_limits<unsigned>::max();
+  }
+}
+
 }  // namespace
 
 SurfacePoint surface_point(const RenderMesh& mesh, const Triangle& triangle, const std::array<double, 3>& weights,
@@ -105,6 +119,24 @@ std::optional<Hit> Tracer::first_hit(const Vec3& from, const Vec3& direction) co
   rtcIntersect1(scene_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return Hit{query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+}
+
+std::array<std::optional<Hit>, 4> Tracer::first_hits(const Vec3& from, const std::array<Vec3, 4>& directions) const {
+  RTCRayHit4 query{};
+  set_rays(query.ray, from, directions);
+  for (int i = 0; i < 4; ++i) {
+    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    query.hit.geomID[i] = query.hit.primID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect4(all_valid, scene_->scene, &context, &query);
+  std::array<std::optional<Hit>, 4> hits;
+  for (int i = 0; i < 4; ++i)
+    if (query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
+      hits[i] = Hit{query.hit.geomID[i], query.hit.primID[i], query.hit.u[i], query.hit.v[i]};
+  return hits;
 }
 
 bool Tracer::blocked(const Vec3& from, const Vec3& direction, double reach) const {

@@ -13,16 +13,22 @@ namespace {
 
 constexpr double kLift = 6e-4;  // [m] off the surface; the cloth lies 4 mm off the body
 
-/// Share of the hemisphere over `normal` that is open; near things count more than far ones because each ray has a
-/// reach of its own.
-double openness(const Tracer& tracer, const Vec3& point, const Vec3& normal, const Sequence& sequence,
-                const OcclusionOptions& o) {
-  int open = 0;
-  for (int k = 0; k < o.rays; ++k)
-    if (!tracer.blocked(point, cosine_direction(normal, sequence.point(k)),
-                        o.reach * (0.06 + 0.94 * sequence.third(k))))
-      ++open;
-  return static_cast<double>(open) / o.rays;
+/// How often the texture can be halved until a texel spans `wanted` metres of cloth; neither side below 16.
+int halvings(const RenderMesh& mesh, double wanted) {
+  double surface = 0, share = 0;  // [m^2] and of the texture
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.positions[t[1]] - mesh.positions[t[0]], b = mesh.positions[t[2]] - mesh.positions[t[0]];
+    const Vec2 c = mesh.uv[t[1]] - mesh.uv[t[0]], d = mesh.uv[t[2]] - mesh.uv[t[0]];
+    surface += a.cross(b).norm();
+    share += std::abs(c.x() * d.y() - c.y() * d.x());
+  }
+  const double texels = share * mesh.texture.width * mesh.texture.height;
+  if (!(texels > 0)) return 0;
+  int n = 0;
+  for (double span = 2 * std::sqrt(surface / texels);
+       span <= wanted && (std::min(mesh.texture.width, mesh.texture.height) >> (n + 1)) >= 16; span *= 2)
+    ++n;
+  return n;
 }
 
 /// Calls `visit(x, y, weights)` for each texel whose centre lies in the triangle or within half a texel of it.
@@ -57,11 +63,11 @@ void each_texel(const std::array<Vec2, 3>& corner, int width, int height, F&& vi
 }
 
 /// One value for each vertex; two averages over neighbours take the rays' noise.
-std::vector<float> vertex_openness(const Tracer& tracer, const RenderMesh& mesh, const OcclusionOptions& options) {
+std::vector<float> vertex_openness(const Sky& sky, const RenderMesh& mesh) {
   std::vector<float> open(mesh.positions.size());
   for (std::size_t v = 0; v < open.size(); ++v)
-    open[v] = static_cast<float>(openness(tracer, mesh.positions[v] + kLift * mesh.normals[v], mesh.normals[v],
-                                          Sequence(static_cast<std::uint32_t>(v), 0, 12), options));
+    open[v] = static_cast<float>(sky.open(mesh.positions[v] + kLift * mesh.normals[v], mesh.normals[v],
+                                          Sequence(static_cast<std::uint32_t>(v), 0, 12)));
   for (int pass = 0; pass < 2; ++pass) {
     std::vector<float> sum(open.size(), 0.0F), count(open.size(), 0.0F);
     for (const Triangle& t : mesh.triangles)
@@ -79,18 +85,19 @@ std::vector<float> vertex_openness(const Tracer& tracer, const RenderMesh& mesh,
 }  // namespace
 
 std::optional<Error> bake_occlusion(RenderMesh& garment, RenderMesh& mannequin, const OcclusionOptions& options) {
-  if (options.reduction < 1 || options.reduction > 64 || options.rays < 1 || options.rays > 4096 ||
+  if (!(options.texel > 0 && options.texel <= 1) || options.rays < 1 || options.rays > 4096 ||
       !(options.reach > 0 && options.reach <= 10))
-    return Error{Cause::usage, "BAD_OCCLUSION_OPTIONS", "The occlusion's reduction, rays or reach are out of range.",
-                 "Use reduction 1 to 64, 1 to 4096 rays and a reach up to 10 m.", "texture"};
+    return Error{Cause::usage, "BAD_OCCLUSION_OPTIONS", "The occlusion's texel, rays or reach are out of range.",
+                 "Use a texel up to 1 m, 1 to 4096 rays and a reach up to 10 m.", "texture"};
   // Meshes that contradict themselves are empty here, and the writers refuse them by name.
   if (garment.positions.empty() || garment.texture.empty() || mannequin.positions.empty()) return std::nullopt;
   const RenderMesh both[] = {garment, mannequin};
   const auto tracer = Tracer::build(both);
   if (!tracer) return tracer.error();
 
-  const int width = std::max(1, garment.texture.width / options.reduction);
-  const int height = std::max(1, garment.texture.height / options.reduction);
+  const Sky sky(*tracer, options.rays, options.reach);
+  const int n = halvings(garment, options.texel);
+  const int width = garment.texture.width >> n, height = garment.texture.height >> n;
   cv::Mat1f open(height, width, -1.0F);
   cv::Mat1b exact(height, width, uchar{0});
   for (const Triangle& t : garment.triangles) {
@@ -104,8 +111,7 @@ std::optional<Error> bake_occlusion(RenderMesh& garment, RenderMesh& mannequin, 
       if (exact(y, x) || (!within && open(y, x) >= 0)) return;
       exact(y, x) = within;
       const SurfacePoint at = surface_point(garment, t, w);
-      open(y, x) =
-          static_cast<float>(openness(*tracer, at.start + kLift * flat, at.normal, Sequence(x, y, 11), options));
+      open(y, x) = static_cast<float>(sky.open(at.start + kLift * flat, at.normal, Sequence(x, y, 11)));
     });
   }
   // A little smoothing over covered texels takes the rays' noise; then the gutter takes its neighbour's value.
@@ -130,7 +136,7 @@ std::optional<Error> bake_occlusion(RenderMesh& garment, RenderMesh& mannequin, 
     for (int x = 0; x < width; ++x)
       *garment.occlusion.at(x, y) = cv::saturate_cast<uchar>(255.0F * of_label[labels.at<int>(y, x)]);
 
-  mannequin.shade = vertex_openness(*tracer, mannequin, options);
+  mannequin.shade = vertex_openness(sky, mannequin);
   return std::nullopt;
 }
 

@@ -48,7 +48,7 @@ cv::Vec3b pixel_at(const cv::Mat& rgb, int index) {
 cv::Mat deep_pixels(const cv::Mat& garment, const cv::Mat& depth, float clear) {
   cv::Mat ridge;
   const int reach = 2 * static_cast<int>(std::ceil(clear)) + 1;
-  cv::dilate(depth, ridge, cv::getStructuringElement(cv::MORPH_ELLIPSE, {reach, reach}));
+  cv::dilate(depth, ridge, cv::getStructuringElement(cv::MORPH_RECT, {reach, reach}));
   const cv::Mat deep = (depth > clear) | ((depth >= ridge - 0.5) & garment);
   return deep;
 }

@@ -42,7 +42,7 @@ RenderMesh far_body() {
 
 TEST(Occlusion, leaves_a_flat_sheet_alone_as_open_all_over) {
   RenderMesh cloth = sheet(0), body = far_body();
-  ASSERT_EQ(bake_occlusion(cloth, body), std::nullopt);
+  ASSERT_EQ(bake_occlusion(cloth, body, {.texel = 0.008}), std::nullopt);
   EXPECT_EQ(cloth.occlusion.width, 64);
   EXPECT_EQ(cloth.occlusion.channels, 1);
   for (const std::uint8_t v : cloth.occlusion.data) EXPECT_EQ(v, 255);
@@ -51,7 +51,7 @@ TEST(Occlusion, leaves_a_flat_sheet_alone_as_open_all_over) {
 
 TEST(Occlusion, darkens_the_bottom_of_a_fold_and_less_the_further_from_it) {
   RenderMesh cloth = sheet(0.9), body = far_body();
-  ASSERT_EQ(bake_occlusion(cloth, body, {.rays = 64}), std::nullopt);
+  ASSERT_EQ(bake_occlusion(cloth, body, {.texel = 0.008, .rays = 64}), std::nullopt);
   const auto mean = [&](int from, int to) {
     double sum = 0;
     for (int y = 16; y < 48; ++y)

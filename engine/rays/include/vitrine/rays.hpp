@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,11 +32,28 @@ class Tracer {
   static Result<Tracer> build(std::span<const RenderMesh> meshes);
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& direction) const;
   bool blocked(const Vec3& from, const Vec3& direction, double reach) const;
+  /// Four rays from one point that go much the same way, at the price of about one and a half.
+  std::array<std::optional<Hit>, 4> first_hits(const Vec3& from, const std::array<Vec3, 4>& directions) const;
 
  private:
   struct Scene;
   explicit Tracer(std::shared_ptr<Scene> scene) : scene_(std::move(scene)) {}
   std::shared_ptr<Scene> scene_;
+};
+
+class Sequence;
+
+/// Share of the sky over a surface that is open, cosine-weighted, by `rays` rays. Each ray has a reach of its own, at
+/// most `reach` [m], so that near things count more than far ones.
+class Sky {
+ public:
+  Sky(const Tracer& tracer, int rays, double reach) : tracer_(tracer), rays_(rays), reach_(reach) {}
+  double open(const Vec3& point, const Vec3& normal, const Sequence& sequence) const;
+
+ private:
+  const Tracer& tracer_;
+  int rays_;
+  double reach_;
 };
 
 }  // namespace vitrine

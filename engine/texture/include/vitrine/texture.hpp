@@ -61,8 +61,10 @@ RenderMesh assemble_garment(const Pattern& pattern, const std::vector<std::vecto
 RenderMesh assemble_mannequin(const TriMesh& body);
 
 struct OcclusionOptions {
-  int reduction = 4;    ///< [-] atlas texels per texel of the occlusion picture
-  int rays = 32;        ///< [-] per texel
+  /// [m] on the cloth that a texel of the occlusion picture may span; it is the texture halved as often as that allows.
+  /// Light changes over a fold, and the mesh has no fold narrower than two of its edges (vitrine-texture-bench).
+  double texel = 0.010;
+  int rays = 32;        ///< [-] per texel, and per vertex of the mannequin
   double reach = 0.25;  ///< [m] how far folds and limbs shade each other
 };
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vitrine/rays.hpp"
+#include "vitrine/sampling.hpp"
+
+namespace vitrine {
+
+double Sky::open(const Vec3& point, const Vec3& normal, const Sequence& sequence) const {
+  int open = 0;
+  for (int k = 0; k < rays_; ++k)
+    open += !tracer_.blocked(point, cosine_direction(normal, sequence.point(k)),
+                             reach_ * (0.06 + 0.94 * sequence.third(k)));
+  return static_cast<double>(open) / rays_;
+}
+
+}  // namespace vitrine
