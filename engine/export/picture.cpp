@@ -35,7 +35,9 @@ Result<Bytes> encode(const Image& image, const char* extension, const std::vecto
 }  // namespace
 
 Result<Bytes> encode_png(const Image& image) {
-  return encode(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 6});
+  // Runs are all that there is to find in lit pictures and masks: the full search takes twice as long for 1 % less.
+  return encode(image, ".png",
+                {cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_RLE});
 }
 
 Result<Bytes> encode_jpeg(const Image& image, int quality) {

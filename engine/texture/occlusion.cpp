@@ -136,7 +136,8 @@ std::optional<Error> bake_occlusion(RenderMesh& garment, RenderMesh& mannequin, 
     for (int x = 0; x < width; ++x)
       *garment.occlusion.at(x, y) = cv::saturate_cast<uchar>(255.0F * of_label[labels.at<int>(y, x)]);
 
-  mannequin.shade = vertex_openness(sky, mannequin);
+  // Averages over a vertex' neighbours make up for the rays that it does without.
+  mannequin.shade = vertex_openness(Sky(*tracer, (options.rays + 1) / 2, options.reach), mannequin);
   return std::nullopt;
 }
 
