@@ -72,7 +72,8 @@ int find_gutter(const std::vector<int>& chart, int width, int height) {
       least = std::min(least, std::min(std::min(x, width - 1 - x), std::min(y, height - 1 - y)));
       front.push_back(i);
     }
-  for (int distance = 1; !front.empty() && distance <= kLargestGutter; ++distance) {
+  // Fronts that have not met after so many steps are no closer than twice as many.
+  for (int distance = 1; !front.empty() && 2 * (distance - 1) < least; ++distance) {
     std::vector<int> next;
     for (const int i : front) {
       const int x = i % width, y = i / width;
@@ -111,7 +112,8 @@ UvFigures measure_uv(const std::vector<Vec2>& uv, const std::vector<Triangle>& t
     charts.join(t[0], t[1]);
     charts.join(t[1], t[2]);
   }
-  std::vector<int> count(static_cast<std::size_t>(width) * height, 0), owner(count.size(), -1);
+  std::vector<std::uint8_t> count(static_cast<std::size_t>(width) * height, 0);  // up to 2
+  std::vector<int> owner(count.size(), -1);
   for (const Triangle& t : triangles) {
     // v runs down in glTF, so a triangle that is counter-clockwise on the surface is clockwise in (u, v).
     if (twice_area(uv[t[0]], uv[t[1]], uv[t[2]]) > 0) ++f.inverted;
@@ -119,8 +121,9 @@ UvFigures measure_uv(const std::vector<Vec2>& uv, const std::vector<Triangle>& t
     for (int k = 0; k < 3; ++k) p[k] = uv[t[k]].cwiseProduct(Vec2(width, height));
     const int chart = static_cast<int>(charts.of(t[0]));
     each_texel(p, width, height, [&](int x, int y) {
-      ++count[static_cast<std::size_t>(y) * width + x];
-      owner[static_cast<std::size_t>(y) * width + x] = chart;
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      count[i] = count[i] == 0 ? 1 : 2;
+      owner[i] = chart;
     });
   }
   std::size_t covered = 0, twice = 0, dark = 0, bright = 0;
