@@ -63,7 +63,7 @@ RenderMesh assemble_mannequin(const TriMesh& body);
 struct OcclusionOptions {
   /// [m] on the cloth that a texel of the occlusion picture may span; it is the texture halved as often as that allows.
   /// Light changes over a fold, and the mesh has no fold narrower than two of its edges (vitrine-texture-bench).
-  double texel = 0.010;
+  double texel = 0.012;
   int rays = 32;        ///< [-] per texel, and half as many per vertex of the mannequin
   double reach = 0.25;  ///< [m] how far folds and limbs shade each other
 };
