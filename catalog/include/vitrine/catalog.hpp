@@ -26,6 +26,8 @@ struct CatalogItem {
   std::string title;                  ///< for people
   std::string copyright;              ///< line kept in the item's files, or empty
   int line = 0;                       ///< of the manifest, for messages
+  /// Size run: mannequins as --mannequin takes them, or the sizes XS, S, M, L, XL, XXL. Empty = the run's own.
+  std::vector<std::string> mannequins;
 };
 
 /// Reads a manifest: CSV (RFC 4180: commas, quotes, line breaks in quotes; LF or CRLF; UTF-8 with or without BOM), the
