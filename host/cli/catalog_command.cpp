@@ -83,7 +83,24 @@ std::string plugins_text(const PluginRegistry& registry) {
   return text;
 }
 
-int run_catalog_command(CatalogArguments& arguments) {
+/// All options of the command that decide an item's bytes, with their values: every one but those that are known not
+/// to, so that an option that is new makes items anew.
+std::string settings_text(const CLI::App& command) {
+  static const std::set<std::string> how_to_run{"Run", "Limits", "Plugins", "Mannequin"};
+  static const std::set<std::string> others{"manifest", "--out", "--jobs", "--help"};
+  std::string text;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (how_to_run.count(option->get_group()) > 0 || others.count(name) > 0) continue;
+    text += name;
+    for (const std::string& value : option->results()) text += " " + value;
+    if (option->results().empty()) text += " " + option->get_default_str();
+    text += "\n";
+  }
+  return text;
+}
+
+int run_catalog_command(CatalogArguments& arguments, const std::string& settings) {
   ConvertRequest probe;
   CatalogOptions& options = arguments.catalog;
   if (auto e = arguments.job.apply(probe)) return fail(*e);
@@ -106,9 +123,10 @@ int run_catalog_command(CatalogArguments& arguments) {
   if (!registry) return fail_run(registry.error());
 
   MannequinShelf shelf(arguments.mannequin);
-  const ItemKitchen kitchen{
-      *registry, arguments.job, shelf,
-      arguments.mannequins.empty() ? std::vector<std::string>{arguments.mannequin.file} : arguments.mannequins};
+  const bool size_run = !arguments.mannequins.empty();
+  const ItemKitchen kitchen{*registry, arguments.job, shelf,
+                            size_run ? arguments.mannequins : std::vector<std::string>{arguments.mannequin.file},
+                            settings};
   // A program that was built anew is another program, whatever its version says.
   options.identity.engine = std::string("vitrine ") + VITRINE_VERSION + " " + hash_of_file("/proc/self/exe");
   options.identity.plugins = plugins_text(*registry);
@@ -187,11 +205,11 @@ void add_run(CLI::App& command, CLI::App& app, int& exit_code) {
   a->job.add_to(*run);
   a->mannequin.add_to(*run);
   a->plugins.add_to(*run);
-  run->callback([a, &app, &exit_code] {
+  run->callback([a, run, &app, &exit_code] {
     a->catalog.progress = a->progress == "json"                                             ? ProgressKind::json
                           : a->progress == "none" || app.get_option("--quiet")->count() > 0 ? ProgressKind::none
                                                                                             : ProgressKind::automatic;
-    exit_code = run_catalog_command(*a);
+    exit_code = run_catalog_command(*a, settings_text(*run));
   });
 }
 
