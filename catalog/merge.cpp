@@ -97,8 +97,8 @@ std::string bring(const fs::path& from, const fs::path& place, const fs::path& w
   }
   const fs::path old = work.string() + "~old";
   fs::remove_all(old, failed);
-  if (fs::exists(fs::symlink_status(place, failed))) fs::rename(place, old, failed);
   std::error_code none;
+  if (fs::exists(fs::symlink_status(place, none))) fs::rename(place, old, failed);
   if (!failed && fs::exists(work, none)) fs::rename(work, place, failed);
   std::error_code ignored;
   fs::remove_all(old, ignored);

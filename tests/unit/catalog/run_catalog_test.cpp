@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vitrine/run_catalog.hpp"
 
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -7,49 +6,21 @@
 #include <cstdlib>
 #include <map>
 
-#include "scratch.hpp"
+#include "catalog_scratch.hpp"
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using namespace vitrine;
 namespace fs = std::filesystem;
 
-class RunCatalog : public Scratch {
+class RunCatalog : public CatalogScratch {
  protected:
-  void SetUp() override {
-    Scratch::SetUp();
-    options.out_dir = (root / "out").string();
-    options.progress = ProgressKind::none;
-  }
-  static std::vector<CatalogItem> items(const std::vector<std::string>& skus) {
-    std::vector<CatalogItem> list;
-    for (const std::string& sku : skus) {
-      CatalogItem item;
-      item.sku = sku;
-      item.garment = "vest";
-      list.push_back(item);
-    }
-    return list;
-  }
-  CatalogSummary run(const std::vector<CatalogItem>& list, const ItemFunction& convert) {
-    const auto result = run_catalog(list, options, convert);
-    EXPECT_TRUE(result) << (result ? "" : result.error().message);
-    return result ? *result : CatalogSummary{};
-  }
-  std::vector<std::string> report() const {
-    std::vector<std::string> lines;
-    std::ifstream in(root / "out/report.jsonl");
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-  }
-  bool has(const std::string& name) const { return fs::exists(root / "out" / name); }
   /// No file or folder of the run is left but results, report and marker.
   void expect_nothing_partial() const {
     for (const auto& entry : fs::recursive_directory_iterator(root / "out"))
       EXPECT_THAT(entry.path().filename().string(), ::testing::Not(HasSubstr("partial"))) << entry.path();
     EXPECT_TRUE(fs::is_empty(root / "out/.vitrine-catalog/work"));
   }
-  CatalogOptions options;
 };
 
 namespace {
