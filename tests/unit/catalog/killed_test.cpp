@@ -120,7 +120,7 @@ TEST_F(Killed, at_200_moments_the_next_run_leaves_the_same_bytes_as_one_that_was
     }
     int status = 0;
     ASSERT_EQ(::waitpid(runner, &status, 0), runner);
-    unfinished += tree(root / "out") != undisturbed;
+    unfinished += !has("") || tree(root / "out") != undisturbed;
     const CatalogSummary s = night("new");
     ASSERT_EQ(s.total, count);
     const auto now = tree(root / "out");
@@ -136,6 +136,6 @@ TEST_F(Killed, at_200_moments_the_next_run_leaves_the_same_bytes_as_one_that_was
   // Otherwise the moments were badly chosen.
   EXPECT_GT(runs_killed, 100);
   EXPECT_GT(workers_killed, 5);
-  EXPECT_GT(unfinished, 80);
+  EXPECT_GT(unfinished, 40);
   RecordProperty("unfinished", unfinished);
 }
