@@ -73,7 +73,7 @@ TEST(CatalogFaults, crash_hang_hunger_a_full_disk_and_a_photo_that_goes_are_each
       shop(folder / "shop", {"crash-1", "eat-1", "full-1", "gone-1", "good-1", "good-2", "hang-1", "spin-1"});
   const std::string preload = "env LD_PRELOAD='" + std::string(VITRINE_FAULTS) + "' ";
   const Outcome night = run_vitrine(
-      run_command(manifest, out, "--jobs 2 --item-seconds 60 --item-cpu 20 --item-memory 1500M"), "2>&1", preload);
+      run_command(manifest, out, "--jobs 2 --item-seconds 60 --item-cpu 6 --item-memory 1500M"), "2>&1", preload);
   EXPECT_EQ(night.exit_code, 1) << night.text;
   const auto lines = report_of(out);
   ASSERT_EQ(lines.size(), 8u);
@@ -82,7 +82,7 @@ TEST(CatalogFaults, crash_hang_hunger_a_full_disk_and_a_photo_that_goes_are_each
   EXPECT_EQ(lines.at("hang-1").at("status"), "timeout");
   EXPECT_THAT(lines.at("hang-1").at("message"), HasSubstr("longer than 60 s"));
   EXPECT_EQ(lines.at("spin-1").at("status"), "timeout");
-  EXPECT_THAT(lines.at("spin-1").at("message"), HasSubstr("20 s of processor time"));
+  EXPECT_THAT(lines.at("spin-1").at("message"), HasSubstr("6 s of processor time"));
   EXPECT_EQ(lines.at("eat-1").at("status"), "failed");
   EXPECT_EQ(lines.at("full-1").at("status"), "failed");
   EXPECT_EQ(lines.at("full-1").at("exit_code"), 73);
