@@ -1,40 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <unistd.h>
-
-#include <cstdio>
+#include <chrono>
 
 #include "report.hpp"
 
 namespace vitrine {
 
-/// Tells a person how far the run is: one updating line on a terminal, else a line per item.
+/// Tells a person, or a program, how far the run is: a bar on a terminal, a line every 30 s elsewhere, or JSON every
+/// second. Items that are not ok have a line of their own at once, but in JSON.
 class Progress {
  public:
-  Progress(bool wanted, std::size_t total) : wanted_(wanted), terminal_(::isatty(STDERR_FILENO) == 1), total_(total) {}
-  ~Progress() {
-    if (wanted_ && terminal_ && done_ > 0) std::fputc('\n', stderr);
-  }
-  void ended(const CatalogItem& item, const ItemRecord& record) {
-    ++done_;
-    const bool well = record.status == ItemStatus::ok;
-    if (!well) ++without_;
-    if (!wanted_) return;
-    const std::string why = well || record.code.empty() ? "" : " (" + record.code + ")";
-    if (!terminal_) {
-      std::fprintf(stderr, "[%zu/%zu] %s: %s%s\n", done_, total_, item.sku.c_str(), name_of(record.status),
-                   why.c_str());
-      return;
-    }
-    // What went wrong keeps a line of its own; the count moves on below it.
-    if (!well) std::fprintf(stderr, "\r\033[K%s: %s%s\n", item.sku.c_str(), name_of(record.status), why.c_str());
-    std::fprintf(stderr, "\r\033[K%zu of %zu done, %zu without a model", done_, total_, without_);
-    std::fflush(stderr);
-  }
+  Progress(ProgressKind kind, std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void unchanged(const CatalogItem& item, const ItemRecord& record);
+  void ended(const CatalogItem& item, const ItemRecord& record);
+  /// To be called often.
+  void tick() { show(false); }
+  /// A line that is printed whatever the kind is.
+  void say(const std::string& line);
 
  private:
-  bool wanted_, terminal_;
-  std::size_t total_, done_ = 0, without_ = 0;
+  using Clock = std::chrono::steady_clock;
+  enum class Style { none, bar, lines, json };
+  void show(bool last);
+  std::string eta() const;
+  double seconds_left() const;  ///< negative when nothing is known yet
+
+  Style style_ = Style::none;
+  std::size_t total_, made_ = 0, unchanged_ = 0, without_ = 0;
+  Clock::time_point start_ = Clock::now(), shown_ = start_;
+  bool shown_once_ = false;
 };
 
 }  // namespace vitrine

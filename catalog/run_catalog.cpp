@@ -1,55 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "vitrine/run_catalog.hpp"
+
 #include <poll.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <set>
 
 #include "output.hpp"
+#include "plan.hpp"
 #include "progress.hpp"
 #include "report.hpp"
-#include "sku.hpp"
-#include "vitrine/catalog.hpp"
+#include "report_files.hpp"
+#include "stop_signals.hpp"
 #include "worker.hpp"
 
 namespace vitrine {
 namespace {
 
-volatile sig_atomic_t stop_asked = 0;
-
-/// Turns SIGINT and SIGTERM into a flag. They stay blocked except while the run waits in ppoll, so that none is lost
-/// between the look at the flag and the wait.
-class StopSignals {
- public:
-  StopSignals() {
-    stop_asked = 0;
-    struct sigaction action = {};
-    action.sa_handler = [](int) { stop_asked = 1; };
-    sigemptyset(&action.sa_mask);
-    sigset_t both;
-    sigemptyset(&both);
-    for (std::size_t i = 0; i < 2; ++i) {
-      sigaddset(&both, numbers[i]);
-      sigaction(numbers[i], nullptr, &before_[i]);
-      // A parent that ignores SIGINT (nohup, a shell's background job) means it.
-      if (before_[i].sa_handler != SIG_IGN) sigaction(numbers[i], &action, nullptr);
-    }
-    sigprocmask(SIG_BLOCK, &both, &mask_);
-  }
-  ~StopSignals() {
-    // A signal that is still pending has to meet the flag, not the old handler.
-    sigprocmask(SIG_SETMASK, &mask_, nullptr);
-    for (std::size_t i = 0; i < 2; ++i) sigaction(numbers[i], &before_[i], nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-  const sigset_t& waiting_mask() const { return mask_; }
-
- private:
-  static constexpr int numbers[2] = {SIGINT, SIGTERM};
-  struct sigaction before_[2] = {};
-  sigset_t mask_ = {};
-};
+constexpr double seconds_between_flushes = 30;
 
 /// Sleeps until a worker has something to say, one is late, or a signal came.
 void wait(const std::vector<Worker>& workers, const sigset_t& mask) {
@@ -70,85 +37,88 @@ void wait(const std::vector<Worker>& workers, const sigset_t& mask) {
 
 class Run {
  public:
-  Run(const std::vector<CatalogItem>& items, const CatalogOptions& options, const ItemFunction& convert,
-      OutputFolder& folder)
+  Run(const std::vector<const CatalogItem*>& items, const CatalogOptions& options, const ItemFunction& convert,
+      OutputFolder& folder, Journal& journal)
       : items_(items),
         options_(options),
         convert_(convert),
         folder_(folder),
+        journal_(journal),
+        planner_(options, folder.root(), journal),
+        decisions_(items.size()),
         records_(items.size()),
         progress_(options.progress, items.size()) {}
 
   std::optional<Error> all() {
     std::optional<Error> error;
-    while (!stop_asked && !error && (next_ < items_.size() || !workers_.empty())) {
+    while (!signals_.asked() && !error && (next_ < items_.size() || !workers_.empty())) {
       if (next_ < items_.size() && workers_.size() < static_cast<std::size_t>(options_.jobs)) {
         error = start_next();
+        progress_.tick();
         if (!error && !full_) continue;
       }
       if (!error && !workers_.empty()) wait(workers_, signals_.waiting_mask());
       collect();
       full_ = false;
+      progress_.tick();
+      journal_.sync(seconds_between_flushes);
     }
-    interrupted_ = stop_asked != 0 && (next_ < items_.size() || !workers_.empty());
+    interrupted_ = signals_.asked() && (next_ < items_.size() || !workers_.empty());
     for (Worker& worker : workers_) {
       worker.kill();
-      folder_.discard(items_[worker.index], false);
+      folder_.discard(*items_[worker.index]);
     }
     workers_.clear();
+    journal_.sync(0);
     return error;
   }
 
   CatalogSummary summary() const {
     CatalogSummary s;
-    s.total = static_cast<int>(items_.size());
+    for (const ItemRecord& record : records_) count(s, record.status);
+    s.unchanged = unchanged_;
     s.interrupted = interrupted_;
-    s.report = folder_.report().string();
-    int shared = 0;
-    for (const ItemRecord& record : records_) {
-      switch (record.status) {
-        case ItemStatus::ok:
-          ++s.ok;
-          break;
-        case ItemStatus::refused:
-          ++s.refused;
-          shared = shared == 0 || shared == record.exit_code ? record.exit_code : 65;
-          break;
-        case ItemStatus::failed:
-          ++s.failed;
-          break;
-        case ItemStatus::crashed:
-          ++s.crashed;
-          break;
-        case ItemStatus::timeout:
-          ++s.timed_out;
-          break;
-        case ItemStatus::not_run:
-          ++s.not_run;
-          break;
-      }
-    }
-    s.exit_code = s.interrupted ? 75 : s.failed + s.crashed + s.timed_out > 0 ? 70 : shared;
+    s.report = (folder_.reports() / "report.jsonl").string();
+    s.exit_code = interrupted_ ? 75 : exit_code_of(s, options_.fail_share);
     return s;
   }
 
-  const std::vector<ItemRecord>& records() {
-    for (std::size_t i = 0; i < items_.size(); ++i)
-      if (records_[i].line.empty()) records_[i] = not_run(items_[i]);
-    return records_;
+  ReportLines lines() {
+    ReportLines lines;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (records_[i].line.empty()) records_[i] = not_run(*items_[i]);
+      lines[items_[i]->sku] = {records_[i].line, records_[i].timing};
+    }
+    return lines;
   }
 
  private:
   std::optional<Error> start_next() {
-    const CatalogItem& item = items_[next_];
+    const CatalogItem& item = *items_[next_];
+    Decision& decision = decisions_[next_];
+    if (decision.entry.key.empty()) {
+      decision = planner_.decide(item);
+      if (options_.why) progress_.say(item.sku + ": " + (decision.runs ? "made: " : "not made: ") + decision.why);
+    }
+    if (!decision.runs) {
+      records_[next_] = decision.entry.record;
+      ++unchanged_;
+      progress_.unchanged(item, records_[next_]);
+      if (decision.refreshed) journal_.add(item.sku, std::move(decision.entry));
+      decision = {};
+      ++next_;
+      return {};
+    }
+    if (options_.prepare)
+      if (std::optional<Error> error = options_.prepare(item)) return error;
     if (std::optional<Error> error = folder_.begin(item)) return error;
     std::optional<Worker> worker = Worker::start(item, folder_.partial(item).string(), options_, convert_);
     if (!worker) {
-      folder_.discard(item, false);
+      folder_.discard(item);
       // With others still at work there will be room when they end.
       full_ = !workers_.empty();
       if (full_) return {};
-      return Error{Cause::internal, "FORK", "no process can be started for item " + item.sku,
+      return Error{Cause::temporary, "FORK", "no process can be started for item " + item.sku,
                    "Check the limits on processes, open files and memory (ulimit -a).", "catalog"};
     }
     worker->index = next_++;
@@ -174,23 +144,40 @@ class Run {
   }
 
   void finish(const Worker& worker) {
-    const CatalogItem& item = items_[worker.index];
-    ItemRecord record = record_of(item, worker.end(), worker.timed_out, options_.item_seconds);
-    if (record.has_result())
-      if (const std::string why = folder_.publish(item); !why.empty()) record = unwritable(item, why);
-    if (!record.has_result()) folder_.discard(item, true);
+    const CatalogItem& item = *items_[worker.index];
+    Decision decision = std::move(decisions_[worker.index]);
+    decisions_[worker.index] = {};
+    const WorkerEnd end = worker.end();
+    ItemRecord record = record_of(item, end, worker.timed_out, options_);
+    if (const std::string why = folder_.publish(item, record); !why.empty()) {
+      const std::string timing = record.timing;
+      record = unwritable(item, why);
+      record.timing = timing;
+    }
+    JournalEntry entry = std::move(decision.entry);
+    entry.record = record;
+    entry.outputs.clear();
+    if (record.has_models() || record.has_quarantine())
+      for (const auto& [file, print] : end.files) entry.outputs[place_of(item.sku, record.status, file)] = print;
+    // Photos that changed meanwhile: nobody knows which of both were seen. The next run makes the item again.
+    if (!Planner::same_inputs(item, entry.inputs)) entry.key = "-";
+    journal_.add(item.sku, std::move(entry));
     progress_.ended(item, record);
     records_[worker.index] = std::move(record);
   }
 
-  const std::vector<CatalogItem>& items_;
+  const std::vector<const CatalogItem*>& items_;
   const CatalogOptions& options_;
   const ItemFunction& convert_;
   OutputFolder& folder_;
+  Journal& journal_;
+  Planner planner_;
   StopSignals signals_;  // held until the report is written
+  std::vector<Decision> decisions_;
   std::vector<ItemRecord> records_;
   std::vector<Worker> workers_;
   std::size_t next_ = 0;
+  int unchanged_ = 0;
   bool full_ = false;
   bool interrupted_ = false;
   Progress progress_;
@@ -200,23 +187,28 @@ class Run {
 
 Result<CatalogSummary> run_catalog(const std::vector<CatalogItem>& items, const CatalogOptions& options,
                                    const ItemFunction& convert) {
-  if (options.jobs < 1 || options.jobs > 256 || !(options.item_seconds > 0) || options.item_seconds > 1e6)
-    return Error{Cause::usage, "JOBS", "jobs has to be 1 to 256, and the time limit of an item above 0",
-                 "Give the number of processor cores as jobs.", "catalog"};
-  std::set<std::string> names;
-  for (const CatalogItem& item : items)
-    if (!is_safe_sku(item.sku) || !names.insert(item.sku).second)
-      return Error{Cause::usage, "SKU_UNSAFE", "\"" + item.sku + "\" is used twice or cannot be the name of a folder",
-                   "Read the items with read_manifest, which checks this.", "catalog"};
+  if (auto error = check_arguments(items, options)) return *error;
+  const std::vector<const CatalogItem*> own = items_of_shard(items, options);
   OutputFolder folder;
-  if (std::optional<Error> error = folder.open(options.out_dir, items)) return *error;
-  CatalogSummary summary;
-  {
-    Run run(items, options, convert, folder);
-    if (std::optional<Error> error = run.all()) return *error;
-    if (std::optional<Error> error = folder.write_report(run.records())) return *error;
-    summary = run.summary();
-  }
+  if (auto error = folder.open(options.out_dir, own, options.shard, options.shards)) return *error;
+  Journal journal;
+  if (auto error = journal.open(folder.journal(), folder.state(), true)) return *error;
+  ReportScope scope;
+  scope.shard = options.shard;
+  scope.shards = options.shards;
+  scope.is_shard = options.shards > 1;
+  scope.items = items.size();
+  scope.catalogue = catalogue_id(items, options.identity);
+  // A shard that dies must not be represented by its last night's report.
+  std::error_code gone;
+  if (scope.is_shard) std::filesystem::remove(folder.reports() / "summary.json", gone);
+  Run run(own, options, convert, folder, journal);
+  if (auto error = run.all()) return *error;
+  const ReportLines lines = run.lines();
+  const CatalogSummary summary = run.summary();
+  // An interrupted shard has no report to merge: it is to be run again.
+  if (summary.interrupted && scope.is_shard) return summary;
+  if (auto error = write_reports(folder.reports(), folder.root(), lines, scope)) return *error;
   return summary;
 }
 

@@ -11,6 +11,10 @@ inline bool is_safe_sku(const std::string& sku) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
            c == '-';
   };
+  // What a run puts beside the items' folders.
+  for (const char* taken :
+       {"quarantine", "shards", "report.jsonl", "report.html", "timings.jsonl", "summary.json", "junit.xml"})
+    if (sku == taken) return false;
   return !sku.empty() && sku.size() <= 100 && sku[0] != '.' && sku[0] != '-' &&
          std::all_of(sku.begin(), sku.end(), allowed);
 }

@@ -13,13 +13,17 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+
+#include "quarantine.hpp"
 
 namespace vitrine {
 namespace {
 
-constexpr std::size_t max_report = 1u << 20;  // [byte] a report line is a few hundred
+constexpr std::size_t max_report = 1u << 20;   // [byte] a report line is a few hundred
+constexpr std::size_t max_message = 4u << 20;  // [byte] with the files' hashes
 
 void send(int fd, const char* data, std::size_t size) {
   while (size > 0) {
@@ -29,6 +33,54 @@ void send(int fd, const char* data, std::size_t size) {
     data += n;
     size -= static_cast<std::size_t>(n);
   }
+}
+
+/// Address space of this process [byte]: what was loaded before the item began.
+std::uint64_t address_space() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t pages = 0;
+  statm >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void set_limits(const CatalogOptions& options) {
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  if (options.item_memory > 0) {
+    const std::uint64_t most = address_space() + options.item_memory;
+    const rlimit memory{most, most};
+    ::setrlimit(RLIMIT_AS, &memory);
+  }
+  if (options.item_cpu_seconds > 0) {
+    // SIGXCPU at the limit, SIGKILL a little later for what does not listen.
+    const auto seconds = static_cast<rlim_t>(options.item_cpu_seconds);
+    const rlimit cpu{seconds, seconds + 2};
+    ::setrlimit(RLIMIT_CPU, &cpu);
+  }
+}
+
+ItemOutcome convert_safely(const CatalogItem& item, const std::string& folder, const ItemFunction& convert) {
+  try {
+    return convert(item, folder);
+  } catch (const std::bad_alloc&) {
+    return {70, R"({"code":"OUT_OF_MEMORY","message":"the conversion needed more memory than it may have"})", false,
+            ""};
+  } catch (const std::exception& e) {
+    const nlohmann::json why{{"code", "EXCEPTION"}, {"message", e.what()}};
+    return {70, why.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  } catch (...) {
+    return {70, R"({"code":"EXCEPTION","message":"the conversion threw something unknown"})"};
+  }
+}
+
+Fingerprints files_in(const std::filesystem::path& folder) {
+  Fingerprints files;
+  std::error_code failed;
+  for (auto at = std::filesystem::recursive_directory_iterator(folder, failed); !failed && at != decltype(at)();
+       at.increment(failed))
+    if (at->is_regular_file(failed) && !at->is_symlink(failed))
+      files[at->path().lexically_relative(folder).string()] = own_fingerprint(at->path());
+  return files;
 }
 
 [[noreturn]] void run(const CatalogItem& item, const std::string& folder, const CatalogOptions& options,
@@ -41,28 +93,19 @@ void send(int fd, const char* data, std::size_t size) {
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  if (options.item_memory > 0) {
-    const rlimit memory{options.item_memory, options.item_memory};
-    ::setrlimit(RLIMIT_AS, &memory);
-  }
-  ItemOutcome outcome;
-  try {
-    outcome = convert(item, folder);
-  } catch (const std::bad_alloc&) {
-    outcome = {70, R"({"code":"OUT_OF_MEMORY","message":"the conversion needed more memory than it may have"})"};
-  } catch (const std::exception& e) {
-    const nlohmann::json why{{"code", "EXCEPTION"}, {"message", e.what()}};
-    outcome = {70, why.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
-  } catch (...) {
-    outcome = {70, R"({"code":"EXCEPTION","message":"the conversion threw something unknown"})"};
-  }
-  const auto code = static_cast<std::int32_t>(outcome.exit_code);
-  const auto size = static_cast<std::uint32_t>(std::min(outcome.report_json_line.size(), max_report + 1));
-  send(fd, reinterpret_cast<const char*>(&code), sizeof code);
-  send(fd, reinterpret_cast<const char*>(&size), sizeof size);
-  send(fd, outcome.report_json_line.data(), size);
+  set_limits(options);
+  ItemOutcome outcome = convert_safely(item, folder, convert);
+  if (outcome.report_json_line.size() > max_report) outcome.report_json_line.clear();
+  if (auto error = add_reason(item, outcome, folder))
+    outcome = {73, nlohmann::json{{"code", error->code}, {"message", error->message}}.dump()};
+  const std::string message = nlohmann::json{{"exit_code", outcome.exit_code},
+                                             {"partly", outcome.partly},
+                                             {"report", outcome.report_json_line},
+                                             {"stage_ms", outcome.stage_ms_json},
+                                             {"files", to_json(files_in(folder))}}
+                                  .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                              "\n";
+  send(fd, message.data(), message.size());
   std::cout.flush();
   std::fflush(nullptr);
   // Not exit(): the parent's destructors and atexit handlers are the parent's to run.
@@ -94,7 +137,8 @@ std::optional<Worker> Worker::start(const CatalogItem& item, const std::string& 
   Worker worker;
   worker.pid_ = pid;
   worker.pipe_ = ends[0];
-  worker.deadline_ = Clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(options.item_seconds * 1000));
+  worker.start_ = Clock::now();
+  worker.deadline_ = worker.start_ + std::chrono::milliseconds(static_cast<std::int64_t>(options.item_seconds * 1000));
   return worker;
 }
 
@@ -106,7 +150,10 @@ Worker& Worker::operator=(Worker&& other) noexcept {
   std::swap(pid_, other.pid_);
   std::swap(pipe_, other.pipe_);
   std::swap(status_, other.status_);
+  std::swap(start_, other.start_);
   std::swap(deadline_, other.deadline_);
+  std::swap(end_, other.end_);
+  std::swap(usage_, other.usage_);
   std::swap(received_, other.received_);
   std::swap(index, other.index);
   std::swap(timed_out, other.timed_out);
@@ -126,7 +173,7 @@ void Worker::drain() {
     if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
     if (n > 0) {
       // More than a report can be is not kept; end() then finds no outcome.
-      if (received_.size() <= max_report + 64) received_.append(buffer, static_cast<std::size_t>(n));
+      if (received_.size() <= max_message) received_.append(buffer, static_cast<std::size_t>(n));
       continue;
     }
     ::close(pipe_);
@@ -137,8 +184,9 @@ void Worker::drain() {
 bool Worker::poll() {
   drain();
   if (pid_ < 0) return true;
-  const pid_t ended = ::waitpid(pid_, &status_, WNOHANG);
+  const pid_t ended = ::wait4(pid_, &status_, WNOHANG, &usage_);
   if (ended != pid_) return false;
+  end_ = Clock::now();
   drain();                 // what it sent between the two calls
   ::kill(-pid_, SIGKILL);  // what it started and left behind
   pid_ = -1;
@@ -149,21 +197,27 @@ void Worker::kill() {
   if (pid_ < 0) return;
   ::kill(-pid_, SIGKILL);
   ::kill(pid_, SIGKILL);
-  while (::waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+  while (::wait4(pid_, &status_, 0, &usage_) < 0 && errno == EINTR) {
   }
+  end_ = Clock::now();
   pid_ = -1;
 }
 
 WorkerEnd Worker::end() const {
   WorkerEnd end;
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  end.cpu_seconds = seconds(usage_.ru_utime) + seconds(usage_.ru_stime);
+  end.wall_seconds = std::chrono::duration<double>(end_ - start_).count();
+  end.peak_kilobytes = usage_.ru_maxrss;
   if (WIFSIGNALED(status_)) end.signal = WTERMSIG(status_);
-  std::int32_t code = 0;
-  std::uint32_t size = 0;
-  if (end.signal != 0 || received_.size() < sizeof code + sizeof size) return end;
-  std::memcpy(&code, received_.data(), sizeof code);
-  std::memcpy(&size, received_.data() + sizeof code, sizeof size);
-  if (size > max_report || received_.size() != sizeof code + sizeof size + size) return end;
-  end.outcome = ItemOutcome{code, received_.substr(sizeof code + sizeof size)};
+  // A message that was cut short has no line break.
+  if (end.signal != 0 || received_.empty() || received_.back() != '\n') return end;
+  const auto message = nlohmann::json::parse(received_, nullptr, false);
+  if (!message.is_object() || !from_json(message.value("files", nlohmann::json()), true, end.files)) return end;
+  end.outcome = ItemOutcome{message.value("exit_code", 70), message.value("report", std::string()),
+                            message.value("partly", false), message.value("stage_ms", std::string())};
   return end;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <sys/resource.h>
 #include <sys/types.h>
 
 #include <chrono>
 #include <optional>
 #include <string>
 
-#include "vitrine/catalog.hpp"
+#include "fingerprint.hpp"
+#include "vitrine/run_catalog.hpp"
 
 namespace vitrine {
 
@@ -14,6 +16,9 @@ namespace vitrine {
 struct WorkerEnd {
   int signal = 0;                      ///< that ended it, or 0
   std::optional<ItemOutcome> outcome;  ///< empty when it gave none
+  Fingerprints files;                  ///< that it left, by path in its folder
+  double cpu_seconds = 0, wall_seconds = 0;
+  long peak_kilobytes = 0;  ///< of resident memory, what it shares with the parent included
 };
 
 /// One forked process that converts one item and sends the outcome through a pipe.
@@ -48,7 +53,8 @@ class Worker {
   pid_t pid_ = -1;
   int pipe_ = -1;
   int status_ = 0;
-  Clock::time_point deadline_;
+  Clock::time_point start_, deadline_, end_;
+  struct rusage usage_ = {};
   std::string received_;
 };
 

@@ -6,11 +6,14 @@ namespace vitrine {
 
 namespace {
 
-void enter_flat_rooms(Rooms& rooms) {
+void enter_seeing_rooms(Rooms& rooms) {
   rooms.enter("request", [&] { return rooms.check_request(); });
   rooms.enter("photo", [&] { return rooms.load_photos(); });
   rooms.enter("silhouette", [&] { return rooms.find_silhouettes(); });
   rooms.enter("features", [&] { return rooms.find_feature_points(); });
+}
+
+void enter_table_rooms(Rooms& rooms) {
   rooms.enter("panels", [&] { return rooms.cut_panels(); });
   rooms.enter("mesh", [&] { return rooms.mesh_levels(); });
 }
@@ -25,24 +28,36 @@ void enter_sewing_rooms(Rooms& rooms) {
 Conversion cut_and_mesh(const ConvertRequest& request) {
   Conversion item;
   Rooms rooms(request, item);
-  enter_flat_rooms(rooms);
+  enter_seeing_rooms(rooms);
+  enter_table_rooms(rooms);
   return item;
 }
 
 Conversion cut_and_sew(const ConvertRequest& request) {
   Conversion item;
   Rooms rooms(request, item);
-  enter_flat_rooms(rooms);
+  enter_seeing_rooms(rooms);
+  enter_table_rooms(rooms);
   enter_sewing_rooms(rooms);
   rooms.enter("sewing", [&] { return rooms.judge_drape(); });
   return item;
 }
 
-/// The mannequin room is not on this list: its body and voxels are made once and shared by every item (request.body).
-Conversion convert(const ConvertRequest& request) {
+Conversion see_photos(const ConvertRequest& request) {
   Conversion item;
   Rooms rooms(request, item);
-  enter_flat_rooms(rooms);
+  enter_seeing_rooms(rooms);
+  return item;
+}
+
+/// The mannequin room is not on this list: its body and voxels are made once and shared by every item (request.body).
+Conversion convert(const ConvertRequest& request) {
+  return dress(see_photos(request), request);
+}
+
+Conversion dress(Conversion item, const ConvertRequest& request) {
+  Rooms rooms(request, item);
+  enter_table_rooms(rooms);
   enter_sewing_rooms(rooms);
   rooms.enter("texture", [&] { return rooms.texture(); });
   rooms.enter("export", [&] { return rooms.write_glb(); });

@@ -40,6 +40,8 @@ std::optional<Error> write_conversion(const ConvertRequest& request, const Conve
       if (auto e = write_file(base + "garment-page.glb", item.garment_page)) return e;
       if (auto e = write_file(base + "dressed-page.glb", item.dressed_page)) return e;
     }
+    if (!item.thumbnail.empty())
+      if (auto e = write_file(base + "thumb.jpg", item.thumbnail)) return e;
     for (const NamedFile& picture : item.pictures)
       if (auto e = write_file(base + picture.name, picture.bytes)) return e;
     for (const MeshFormat format : request.formats)

@@ -104,6 +104,8 @@ Rooms::Step Rooms::take_pictures() {
   Image picture;
   if (auto e = keep(render_preview(both, options), picture)) return e;
   if (auto e = keep(encode_png(picture), item_.preview_png)) return e;
+  if (request_.thumbnail)
+    if (auto e = keep(thumbnail_of(picture), item_.thumbnail)) return e;
 
   const PictureRequest& wanted = request_.pictures;
   const auto take = [&](const std::string& name, const PreviewOptions& o) -> Step {

@@ -119,6 +119,12 @@ std::string to_text(const Json& j, int indent) {
 
 }  // namespace
 
+std::string stage_ms_json(const Conversion& item) {
+  Json ms = Json::object();
+  for (const auto& [stage, value] : item.stage_ms) ms[stage] = ms.value(stage, 0.0) + value;
+  return ms.dump();
+}
+
 std::string report_hash(const ConvertRequest& request, const Conversion& item) {
   Json j;
   j["name"] = request.name;
@@ -150,9 +156,7 @@ std::string report_json(const ConvertRequest& request, const Conversion& item) {
                      {"dressed.glb", commerce_json(item.dressed_check)}};
   // Processor time is the one part of a conversion that differs between two runs; it is kept apart, last, and in no
   // other file.
-  Json ms = Json::object();
-  for (const auto& [stage, value] : item.stage_ms) ms[stage] = ms.value(stage, 0.0) + value;
-  j["ms"] = ms;
+  if (request.times_in_report) j["ms"] = Json::parse(stage_ms_json(item));
   return to_text(j, 2) + "\n";
 }
 

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 64 wrong usage, 65 a photo or mesh cannot be used, 66 an input is missing, 69 plugin,\n"
-      "70 internal error, 73 cannot write, 75 ended by a signal.");
+      "70 internal error, 73 cannot write. catalog: 0, 1 some items are not ok, 64, 66, 73, 75 run again, 78 set-up.");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Only errors on standard error");
 

@@ -19,11 +19,12 @@ struct Outcome {
   std::string text;  ///< standard output, and error unless it was sent elsewhere
 };
 
-/// Runs the built program with a shell command line; `errors` says where standard error goes.
-inline Outcome run_vitrine(const std::string& arguments, const std::string& errors = "2>&1") {
+/// Runs the built program with a shell command line; `errors` says where standard error goes, `before` what starts it.
+inline Outcome run_vitrine(const std::string& arguments, const std::string& errors = "2>&1",
+                           const std::string& before = "") {
   Outcome run;
   const std::string command =
-      std::string(VITRINE_BINARY_DIR) + "/bin/vitrine " + arguments + " " + errors + " </dev/null";
+      before + std::string(VITRINE_BINARY_DIR) + "/bin/vitrine " + arguments + " " + errors + " </dev/null";
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return run;
   char buffer[4096];

@@ -9,18 +9,13 @@ using namespace vitrine::test;
 
 namespace {
 
-/// Every file of a catalogue run but the reports' processor times.
+/// Every file of a catalogue run but the processor times and what the folder remembers of files' times.
 std::map<std::string, std::string> files_of(const fs::path& out) {
   std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(out)) {
-    if (!entry.is_regular_file()) continue;
-    std::string bytes = slurp(entry.path());
-    if (entry.path().filename() == "report.json") {
-      auto json = nlohmann::json::parse(bytes);
-      json.erase("ms");
-      bytes = json.dump();
-    }
-    files[fs::relative(entry.path(), out).string()] = bytes;
+  for (auto at = fs::recursive_directory_iterator(out); at != decltype(at)(); ++at) {
+    if (at->path().filename() == ".vitrine-catalog") at.disable_recursion_pending();
+    if (at->is_regular_file() && at->path().filename() != "timings.jsonl")
+      files[fs::relative(at->path(), out).string()] = slurp(at->path());
   }
   return files;
 }

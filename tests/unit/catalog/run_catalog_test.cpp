@@ -1,53 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+
 #include <gmock/gmock.h>
 #include <signal.h>
 
 #include <cstdlib>
 #include <map>
 
-#include "scratch.hpp"
-#include "vitrine/catalog.hpp"
+#include "catalog_scratch.hpp"
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using namespace vitrine;
 namespace fs = std::filesystem;
 
-class RunCatalog : public Scratch {
+class RunCatalog : public CatalogScratch {
  protected:
-  void SetUp() override {
-    Scratch::SetUp();
-    options.out_dir = (root / "out").string();
-    options.progress = false;
-  }
-  static std::vector<CatalogItem> items(const std::vector<std::string>& skus) {
-    std::vector<CatalogItem> list;
-    for (const std::string& sku : skus) {
-      CatalogItem item;
-      item.sku = sku;
-      item.garment = "vest";
-      list.push_back(item);
-    }
-    return list;
-  }
-  CatalogSummary run(const std::vector<CatalogItem>& list, const ItemFunction& convert) {
-    const auto result = run_catalog(list, options, convert);
-    EXPECT_TRUE(result) << (result ? "" : result.error().message);
-    return result ? *result : CatalogSummary{};
-  }
-  std::vector<std::string> report() const {
-    std::vector<std::string> lines;
-    std::ifstream in(root / "out/report.jsonl");
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-  }
-  bool has(const std::string& name) const { return fs::exists(root / "out" / name); }
   /// No file or folder of the run is left but results, report and marker.
   void expect_nothing_partial() const {
-    for (const auto& entry : fs::directory_iterator(root / "out"))
-      EXPECT_THAT(entry.path().filename().string(), ::testing::Not(StartsWith(".partial"))) << entry.path();
+    for (const auto& entry : fs::recursive_directory_iterator(root / "out"))
+      EXPECT_THAT(entry.path().filename().string(), ::testing::Not(HasSubstr("partial"))) << entry.path();
+    EXPECT_TRUE(fs::is_empty(root / "out/.vitrine-catalog/work"));
   }
-  CatalogOptions options;
 };
 
 namespace {
@@ -90,8 +63,8 @@ TEST_F(RunCatalog, puts_each_result_into_the_folder_of_its_sku) {
   EXPECT_EQ(
       report(),
       (std::vector<std::string>{
-          R"({"sku":"b","garment":"vest","status":"ok","exit_code":0,"code":"OK","message":"fine","triangles":12})",
-          R"({"sku":"a","garment":"vest","status":"ok","exit_code":0,"code":"OK","message":"fine","triangles":12})"}));
+          R"({"sku":"a","garment":"vest","status":"ok","exit_code":0,"code":"OK","message":"fine","triangles":12,"outputs":{"a/model.txt":"ca978112ca1bbdcafac231b39a23dc4da786eff8147c4e72b9807785afee48bb"}})",
+          R"({"sku":"b","garment":"vest","status":"ok","exit_code":0,"code":"OK","message":"fine","triangles":12,"outputs":{"b/model.txt":"3e23e8160039594a33894f6564e1b1348bbd7a0088d42c4acb73eeaed59c009d"}})"}));
   expect_nothing_partial();
 }
 
@@ -140,10 +113,10 @@ TEST_F(RunCatalog, a_crash_is_the_crashed_items_status_and_nobody_elses) {
   const CatalogSummary s = run(items({"good-1", "abort-2", "kill-3", "good-4"}), as_named);
   EXPECT_EQ(s.ok, 2);
   EXPECT_EQ(s.crashed, 2);
-  EXPECT_EQ(s.exit_code, 70);
-  EXPECT_THAT(report()[1], HasSubstr(R"("status":"crashed","exit_code":70,"code":"CRASHED")"));
-  EXPECT_THAT(report()[1], HasSubstr("SIGABRT"));
-  EXPECT_THAT(report()[2], HasSubstr("SIGKILL"));
+  EXPECT_EQ(s.exit_code, 1);
+  EXPECT_THAT(report()[0], HasSubstr(R"("status":"crashed","exit_code":70,"code":"CRASHED")"));
+  EXPECT_THAT(report()[0], HasSubstr("SIGABRT"));
+  EXPECT_THAT(report()[3], HasSubstr("SIGKILL"));
   EXPECT_TRUE(has("good-1"));
   EXPECT_FALSE(has("abort-2"));
   EXPECT_TRUE(has("good-4"));
@@ -156,7 +129,7 @@ TEST_F(RunCatalog, a_hang_ends_at_the_time_limit) {
   const CatalogSummary s = run(items({"hang-1", "good-2"}), as_named);
   EXPECT_EQ(s.timed_out, 1);
   EXPECT_EQ(s.ok, 1);
-  EXPECT_THAT(report()[0], HasSubstr(R"("status":"timeout","exit_code":70,"code":"TIMED_OUT")"));
+  EXPECT_THAT(report()[1], HasSubstr(R"("status":"timeout","exit_code":70,"code":"TIMED_OUT")"));
   EXPECT_FALSE(has("hang-1"));
   expect_nothing_partial();
 }
@@ -185,7 +158,7 @@ TEST_F(RunCatalog, what_an_item_started_dies_with_it) {
 }
 
 TEST_F(RunCatalog, an_item_without_a_usable_report_has_failed) {
-  const std::vector<std::string> skus{"leave-1", "silent-2", "array-3", "broken-4", "deep-5", "long-6", "throw-7"};
+  const std::vector<std::string> skus{"array-3", "broken-4", "deep-5", "leave-1", "long-6", "silent-2", "throw-7"};
   const CatalogSummary s = run(items(skus), as_named);
   EXPECT_EQ(s.failed, static_cast<int>(skus.size()));
   const auto lines = report();
@@ -197,21 +170,35 @@ TEST_F(RunCatalog, an_item_without_a_usable_report_has_failed) {
   }
 }
 
-TEST_F(RunCatalog, a_refused_item_keeps_its_folder_and_its_reason) {
-  const CatalogSummary s = run(items({"refuse-1", "good-2"}), as_named);
+TEST_F(RunCatalog, a_refused_item_goes_to_quarantine_with_its_reason_and_links_to_its_photos) {
+  auto list = items({"refuse-1", "good-2"});
+  list[0].front = write("front.JPG", "pixels");
+  list[0].title = "A vest";
+  const CatalogSummary s = run(list, as_named);
   EXPECT_EQ(s.refused, 1);
-  EXPECT_EQ(s.exit_code, 65);
-  EXPECT_TRUE(has("refuse-1/model.txt"));
-  EXPECT_THAT(report()[0], HasSubstr(R"("status":"refused","exit_code":65,"code":"LOW_CONTRAST")"));
+  EXPECT_EQ(s.exit_code, 1);
+  EXPECT_FALSE(has("refuse-1"));
+  EXPECT_TRUE(has("quarantine/refuse-1/model.txt"));
+  EXPECT_EQ(read(root / "out/quarantine/refuse-1/photo-front.JPG"), "pixels");
+  const std::string reason = read(root / "out/quarantine/refuse-1/reason.json");
+  for (const char* part : {"LOW_CONTRAST", "too much alike", "front.JPG", "A vest"})
+    EXPECT_THAT(reason, HasSubstr(part));
+  EXPECT_THAT(report()[1], HasSubstr(R"("status":"refused","exit_code":65,"code":"LOW_CONTRAST")"));
 }
 
-TEST_F(RunCatalog, the_exit_code_is_the_one_that_all_refusals_share) {
-  EXPECT_EQ(run(items({"missing-1", "missing-2", "good-3"}), as_named).exit_code, 66);
-  EXPECT_EQ(run(items({"missing-1", "refuse-2"}), as_named).exit_code, 65);
-  EXPECT_EQ(run(items({"missing-1", "abort-2"}), as_named).exit_code, 70);
+TEST_F(RunCatalog, the_exit_code_is_1_when_more_items_are_not_ok_than_were_allowed) {
+  const auto list = items({"missing-1", "abort-2", "good-3", "good-4"});
+  EXPECT_EQ(run(list, as_named).exit_code, 1);
+  options.fail_share = 0.5;
+  EXPECT_EQ(run(list, as_named).exit_code, 0);
+  options.fail_share = 0.49;
+  EXPECT_EQ(run(list, as_named).exit_code, 1);
+  options.fail_share = 1;
+  EXPECT_EQ(run(items({"missing-1", "abort-2"}), as_named).exit_code, 0);
 }
 
 TEST_F(RunCatalog, a_later_run_replaces_earlier_results) {
+  options.force = true;
   run(items({"a", "b"}), [](const CatalogItem&, const std::string& dir) {
     std::ofstream(fs::path(dir) / "old.txt") << "old";
     return ItemOutcome{0, "{}"};
@@ -227,9 +214,9 @@ TEST_F(RunCatalog, a_later_run_replaces_earlier_results) {
 }
 
 TEST_F(RunCatalog, a_stale_partial_folder_is_cleared) {
-  fs::create_directories(root / "out/.partial-a/deep");
-  fs::create_directories(root / "out/.partial-gone");
-  std::ofstream(root / "out/.partial-a/stale.txt") << 1;
+  fs::create_directories(root / "out/.vitrine-catalog/work/a/deep");
+  fs::create_directories(root / "out/.vitrine-catalog/work/gone");
+  std::ofstream(root / "out/.vitrine-catalog/work/a/stale.txt") << 1;
   run(items({"a"}), well);
   EXPECT_TRUE(has("a/model.txt"));
   EXPECT_FALSE(has("a/stale.txt"));
@@ -260,15 +247,16 @@ TEST_F(RunCatalog, two_runs_do_not_write_to_one_folder) {
   run(items({"a"}), [&](const CatalogItem& item, const std::string&) -> ItemOutcome {
     CatalogOptions other;
     other.out_dir = path;
-    other.progress = false;
+    other.progress = ProgressKind::none;
     const auto second = run_catalog({item}, other, well);
     return {second ? 70 : second.error().exit_code(), "{\"code\":\"" + (second ? "" : second.error().code) + "\"}"};
   });
-  EXPECT_THAT(report()[0], HasSubstr("\"exit_code\":73,\"code\":\"OUT_DIR_BUSY\""));
+  EXPECT_THAT(report()[0], HasSubstr("\"exit_code\":75,\"code\":\"OUT_DIR_BUSY\""));
 }
 
 TEST_F(RunCatalog, an_unsafe_or_repeated_sku_never_reaches_the_disk) {
-  for (const auto& skus : std::vector<std::vector<std::string>>{{"../a"}, {""}, {".."}, {"a", "a"}}) {
+  for (const auto& skus :
+       std::vector<std::vector<std::string>>{{"../a"}, {""}, {".."}, {"a", "a"}, {"quarantine"}, {"report.jsonl"}}) {
     const auto result = run_catalog(items(skus), options, well);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, "SKU_UNSAFE");
@@ -294,7 +282,7 @@ TEST_F(RunCatalog, a_stop_signal_ends_the_run_with_75_and_nothing_partial) {
     EXPECT_EQ(s.ok, 1);
     EXPECT_EQ(s.not_run, 2);
     ASSERT_EQ(report().size(), 3u);
-    EXPECT_THAT(report()[1], HasSubstr(R"("status":"not_run","exit_code":75,"code":"INTERRUPTED")"));
+    EXPECT_THAT(report()[2], HasSubstr(R"("status":"not_run","exit_code":75,"code":"INTERRUPTED")"));
     EXPECT_TRUE(has("good-1"));
     expect_nothing_partial();
   }
@@ -307,8 +295,10 @@ TEST_F(RunCatalog, the_callers_keys_cannot_change_what_the_run_states) {
   });
   const auto lines = report();
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0],
-            R"({"sku":"a","garment":"vest","status":"refused","exit_code":65,"code":"","message":"a\nb","ms":5})");
+  EXPECT_THAT(
+      lines[0],
+      StartsWith(
+          R"({"sku":"a","garment":"vest","status":"refused","exit_code":65,"code":"","message":"a\nb","ms":5,"outputs":{)"));
 }
 
 TEST_F(RunCatalog, jobs_out_of_range_are_a_usage_error) {

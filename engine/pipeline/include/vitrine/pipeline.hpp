@@ -104,6 +104,9 @@ struct ConvertRequest : GarmentChoice {
   bool debug_images = false;
   std::vector<MeshFormat> formats;  ///< also write the garment as these
   bool compress = false;            ///< also write copies for a web page
+  bool thumbnail = false;           ///< also write thumb.jpg, a small copy of preview.png
+  /// report.json ends with processor times, the one thing in it that differs from run to run.
+  bool times_in_report = true;
   TextureOptions texture;
   PictureRequest pictures;
   std::string copyright;  ///< of the GLBs; may be empty
@@ -131,6 +134,7 @@ struct Conversion {
   Bytes garment_glb, dressed_glb, preview_png;
   Bytes garment_page, dressed_page;  ///< compressed copies, when asked for
   std::vector<CommerceFinding> garment_check, dressed_check;
+  Bytes thumbnail;                  ///< JPEG, when asked for
   std::vector<NamedFile> pictures;  ///< as asked for in the request
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, double>> stage_ms;  ///< [ms] of processor time per room, in order
@@ -143,6 +147,14 @@ ViewRequest view_of(const ConvertRequest& request, Side side);
 /// One garment, from two photos to files in memory: the rooms in their order.
 Conversion convert(const ConvertRequest& request);
 
+/// convert() in two halves, for one garment on several mannequins. What is seen in the photos does not depend on
+/// request.body; panels do, whose size and widths follow the body where the shop lists none.
+Conversion see_photos(const ConvertRequest& request);
+Conversion dress(Conversion seen, const ConvertRequest& request);
+
+/// A small JPEG of a picture, at most 320x220 px, for lists.
+Result<Bytes> thumbnail_of(const Image& picture);
+
 /// The rooms as far as the mesh: the pattern as it lies on the table, nothing placed or sewn.
 Conversion cut_and_mesh(const ConvertRequest& request);
 
@@ -152,6 +164,9 @@ Conversion cut_and_sew(const ConvertRequest& request);
 /// report.json: status, reason, features in pixels of the photos as given, mesh, drape and texture figures, how the
 /// files stand to the limits of shops ("commerce"), milliseconds per room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
+
+/// Milliseconds of processor time per room, a JSON object.
+std::string stage_ms_json(const Conversion& conversion);
 
 /// SHA-256 [hex] of what the report says of the conversion: its compact JSON without "status", "error", "commerce" and
 /// "ms", which are not known yet when the models are written. The models carry it in asset.extras.

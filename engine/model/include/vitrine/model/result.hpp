@@ -8,12 +8,14 @@ namespace vitrine {
 
 /// What went wrong, by whose hand; decides the exit code (sysexits.h values).
 enum class Cause {
-  usage = 64,      ///< the command line or a setting
-  unusable = 65,   ///< the photo, mesh or manifest cannot be used as it is
-  missing = 66,    ///< an input file is missing or unreadable
-  plugin = 69,     ///< a plugin is missing, refused or broken
-  internal = 70,   ///< our fault
-  unwritable = 73  ///< an output cannot be written
+  usage = 64,       ///< the command line or a setting
+  unusable = 65,    ///< the photo, mesh or manifest cannot be used as it is
+  missing = 66,     ///< an input file is missing or unreadable
+  plugin = 69,      ///< a plugin is missing, refused or broken
+  internal = 70,    ///< our fault
+  unwritable = 73,  ///< an output cannot be written
+  temporary = 75,   ///< goes away by itself: run again
+  setup = 78        ///< what a whole run is set up with: its manifest, plugins, mannequins, shards
 };
 
 /// An error as a value. `message` names the file and the cause, `remedy` says what the user can do.

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// kill -9 at any moment, of the run or of one of its workers: the next run ends with what an undisturbed one leaves.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "catalog_scratch.hpp"
+
+using ::testing::HasSubstr;
+using namespace vitrine;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int count = 16;
+constexpr std::size_t length = 20'000;  // [byte] so that a file is more than one write
+
+std::string content_of(const std::string& sku, const std::string& night) {
+  return std::string(length, sku.back()) + night + "end";
+}
+
+/// Shared with the processes that are forked: who is at work just now.
+std::atomic<int>* shared_worker() {
+  void* page = ::mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  return page == MAP_FAILED ? nullptr : new (page) std::atomic<int>(0);
+}
+
+}  // namespace
+
+class Killed : public CatalogScratch {
+ protected:
+  void SetUp() override {
+    CatalogScratch::SetUp();
+    std::vector<std::string> skus;
+    for (int i = 0; i < count; ++i)
+      skus.push_back(std::string(i % 5 == 3 ? "refuse-" : "item-") + static_cast<char>('a' + i));
+    list = items(skus);
+    options.jobs = 3;
+    worker = shared_worker();
+    ASSERT_NE(worker, nullptr);
+  }
+  ItemFunction converter(const std::string& night) const {
+    return [this, night](const CatalogItem& item, const std::string& dir) {
+      *worker = ::getpid();
+      const std::string text = content_of(item.sku, night);
+      std::ofstream out(fs::path(dir) / "model.txt", std::ios::binary);
+      out.write(text.data(), static_cast<std::streamsize>(length / 2)).flush();
+      out << text.substr(length / 2);
+      out.close();
+      if (item.sku[0] == 'r') return ItemOutcome{65, R"({"code":"BLURRED","message":"out of focus"})"};
+      return ItemOutcome{0, "{}"};
+    };
+  }
+  CatalogSummary night(const std::string& name) {
+    options.identity.settings = [name](const CatalogItem&) { return name; };
+    return run(list, converter(name));
+  }
+  /// Looks at the files as a shop's server would while the run goes on: each is whole, of this night or the last.
+  void look_at(const CatalogItem& item) const {
+    const std::string text = read(root / "out" / item.sku / "model.txt");
+    if (text.empty()) return;
+    EXPECT_TRUE(text == content_of(item.sku, "old") || text == content_of(item.sku, "new"))
+        << item.sku << ": " << text.size() << " bytes";
+    std::istringstream lines(read(root / "out/report.jsonl"));
+    int whole = 0;
+    for (std::string line; std::getline(lines, line); ++whole) EXPECT_TRUE(nlohmann::json::accept(line));
+    EXPECT_TRUE(whole == 0 || whole == count) << whole;
+  }
+  std::vector<CatalogItem> list;
+  std::atomic<int>* worker = nullptr;
+};
+
+TEST_F(Killed, at_200_moments_the_next_run_leaves_the_same_bytes_as_one_that_was_never_disturbed) {
+  const timespec begin = [] {
+    timespec t;
+    ::clock_gettime(CLOCK_MONOTONIC, &t);
+    return t;
+  }();
+  night("new");
+  timespec end;
+  ::clock_gettime(CLOCK_MONOTONIC, &end);
+  const auto undisturbed = tree(root / "out");
+  ASSERT_EQ(undisturbed.count("report.html"), 1u);
+  const long usual = (end.tv_sec - begin.tv_sec) * 1'000'000 + (end.tv_nsec - begin.tv_nsec) / 1000;
+
+  std::mt19937 random(1);
+  int runs_killed = 0, workers_killed = 0, unfinished = 0;
+  for (int round = 0; round < 200; ++round) {
+    SCOPED_TRACE(round);
+    fs::remove_all(root / "out");
+    if (round % 4 == 0) night("old");
+    const bool kill_worker = round % 3 == 0;
+    *worker = 0;
+    const pid_t runner = ::fork();
+    ASSERT_GE(runner, 0);
+    if (runner == 0) {
+      night("new");
+      ::_exit(0);
+    }
+    const long moment = std::uniform_int_distribution<long>(0, usual)(random);
+    for (long waited = 0; waited < moment; waited += 500) {
+      ::usleep(static_cast<useconds_t>(std::min<long>(500, moment - waited)));
+      look_at(list[random() % list.size()]);
+    }
+    if (kill_worker) {
+      // A number may have been given to another process by now: only a child of the run is ours to kill.
+      const pid_t victim = *worker;
+      const std::string stat = victim > 0 ? read("/proc/" + std::to_string(victim) + "/stat") : "";
+      if (stat.find(") R " + std::to_string(runner) + " ") != std::string::npos ||
+          stat.find(") S " + std::to_string(runner) + " ") != std::string::npos ||
+          stat.find(") D " + std::to_string(runner) + " ") != std::string::npos)
+        workers_killed += ::kill(victim, SIGKILL) == 0;
+    } else {
+      runs_killed += ::kill(runner, SIGKILL) == 0;
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(runner, &status, 0), runner);
+    unfinished += !has("") || tree(root / "out") != undisturbed;
+    const CatalogSummary s = night("new");
+    ASSERT_EQ(s.total, count);
+    const auto now = tree(root / "out");
+    ASSERT_EQ(now.size(), undisturbed.size());
+    for (const auto& [file, bytes] : undisturbed) {
+      ASSERT_EQ(now.count(file), 1u) << file;
+      ASSERT_TRUE(now.at(file) == bytes) << file;
+    }
+    ASSERT_EQ(static_cast<int>(report().size()), count) << "every item exactly once";
+    ASSERT_TRUE(fs::is_empty(root / "out/.vitrine-catalog/work"));
+    if (HasFailure()) break;
+  }
+  // Otherwise the moments were badly chosen.
+  EXPECT_GT(runs_killed, 100);
+  EXPECT_GT(workers_killed, 5);
+  EXPECT_GT(unfinished, 40);
+  RecordProperty("unfinished", unfinished);
+}
