@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "envelope.hpp"
 #include "gaps.hpp"
@@ -64,6 +65,20 @@ class Narrowing {
   std::vector<double> share_[2];
 };
 
+/// Whether a seam has to pass below the arms: any but the shoulder line, which is the run of seams that leaves the neck
+/// edge on either side. A garment without a neck edge hangs below the arms.
+bool sewn_under_arms(const GarmentTemplate& garment) {
+  const int neck = garment.neck_edge(), count = static_cast<int>(garment.edges.size());
+  if (neck < 0) return true;
+  std::set<int> shoulder_line;
+  for (const int step : {1, count - 1})
+    for (int e = (neck + step) % count; garment.edges[e].kind == EdgeKind::seam; e = (e + step) % count)
+      shoulder_line.insert(e);
+  const auto seams = std::count_if(garment.edges.begin(), garment.edges.end(),
+                                   [](const TemplateEdge& edge) { return edge.kind == EdgeKind::seam; });
+  return seams > static_cast<std::ptrdiff_t>(shoulder_line.size());
+}
+
 }  // namespace
 
 Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pattern, const Mannequin& mannequin,
@@ -113,6 +128,8 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
     for (const Vec2& q : panel.outline)
       if (std::all_of(bends.begin(), bends.end(), [&](const LimbBend& b) { return b.weight(q + shift) == 0; }))
         trunk.push_back(q + shift);
+    // Sides that nothing is sewn to (a poncho's) hang over the arms and keep their width.
+    if (!sewn_under_arms(garment)) trunk.clear();
     const Narrowing narrowing(gaps, trunk, !bends.empty());
 
     const double outwards = panel.side == Side::front ? 1 : -1;
