@@ -5,7 +5,7 @@
 namespace {
 
 constexpr std::array garments = {vitrine::templates::vest};
-static_assert(vitrine::sdk::check(garments[0]));
+VITRINE_CHECK(garments[0]);
 
 }  // namespace
 
