@@ -11,10 +11,10 @@ namespace sdk = vitrine::sdk;
 constexpr std::array features = std::to_array<vitrine_feature>({
     {"neck_left", "neck_left", "neck_right", VITRINE_TURN_CONVEX, 0},
     {"neck_right", "neck_right", "neck_left", VITRINE_TURN_CONVEX, 0},
-    {"tip_right", "elbow_right", "tip_left", VITRINE_TURN_CONVEX, 0},
+    {"tip_right", nullptr, "tip_left", VITRINE_TURN_CONVEX, 0},
     {"hem_right", "hip_right", "hem_left", VITRINE_TURN_CONVEX, 0},
     {"hem_left", "hip_left", "hem_right", VITRINE_TURN_CONVEX, 0},
-    {"tip_left", "elbow_left", "tip_right", VITRINE_TURN_CONVEX, 0},
+    {"tip_left", nullptr, "tip_right", VITRINE_TURN_CONVEX, 0},
 });
 
 // Where they lie in the garment's bounding box, (0,0) top left to (1,1) bottom right, and how far around to look, as a
