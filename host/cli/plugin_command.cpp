@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin_new.hpp"
+
 #include <iomanip>
 #include <iostream>
 
 #include "common.hpp"
-#include "plugin_new.hpp"
 #include "vitrine/host/describe.hpp"
 
 namespace vitrine::cli {
@@ -56,6 +57,7 @@ int inspect_plugin(const PluginOptions& options, const std::string& id, const st
 void add_plugin(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("plugin", "Garment and neckline plugins");
   command->require_subcommand(1);
+  add_plugin_new(*command, exit_code);
   auto options = std::make_shared<PluginOptions>();
   auto* list = command->add_subcommand("list", "All garments and necklines, and every refused file with its reason");
   options->add_to(*list);
@@ -71,7 +73,6 @@ void add_plugin(CLI::App& app, int& exit_code) {
   inspect->add_option("--svg", a->svg, "Also draw the template with its seams into this file; - for standard output");
   a->options.add_to(*inspect);
   inspect->callback([a, &exit_code] { exit_code = inspect_plugin(a->options, a->id, a->svg); });
-  add_plugin_new(*command, exit_code);
 }
 
 }  // namespace vitrine::cli
