@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "envelope.hpp"
 #include "gaps.hpp"
@@ -14,6 +13,20 @@ namespace {
 
 std::string millimetres(double metres) {
   return std::to_string(std::lround(metres * 1e3)) + " mm";
+}
+
+/// Whether a seam has to pass below the arms: any but the shoulder line, which is the run of seams that leaves the neck
+/// edge on either side. A garment without a neck edge hangs below the arms.
+bool sewn_under_arms(const GarmentTemplate& garment) {
+  const int neck = garment.neck_edge(), count = static_cast<int>(garment.edges.size());
+  if (neck < 0) return true;
+  std::vector<char> shoulder_line(garment.edges.size(), 0);
+  for (const int step : {1, count - 1})
+    for (int e = (neck + step) % count; garment.edges[e].kind == EdgeKind::seam; e = (e + step) % count)
+      shoulder_line[e] = 1;
+  for (int e = 0; e < count; ++e)
+    if (garment.edges[e].kind == EdgeKind::seam && shoulder_line[e] == 0) return true;
+  return false;
 }
 
 /// How much narrower [-] a panel is laid, level by level, so that its sides hang between trunk and arms and are not
@@ -64,20 +77,6 @@ class Narrowing {
   double bottom_ = 0, top_ = 0;
   std::vector<double> share_[2];
 };
-
-/// Whether a seam has to pass below the arms: any but the shoulder line, which is the run of seams that leaves the neck
-/// edge on either side. A garment without a neck edge hangs below the arms.
-bool sewn_under_arms(const GarmentTemplate& garment) {
-  const int neck = garment.neck_edge(), count = static_cast<int>(garment.edges.size());
-  if (neck < 0) return true;
-  std::set<int> shoulder_line;
-  for (const int step : {1, count - 1})
-    for (int e = (neck + step) % count; garment.edges[e].kind == EdgeKind::seam; e = (e + step) % count)
-      shoulder_line.insert(e);
-  const auto seams = std::count_if(garment.edges.begin(), garment.edges.end(),
-                                   [](const TemplateEdge& edge) { return edge.kind == EdgeKind::seam; });
-  return seams > static_cast<std::ptrdiff_t>(shoulder_line.size());
-}
 
 }  // namespace
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plugin_new.hpp"
-
 #include <iomanip>
 #include <iostream>
 
 #include "common.hpp"
+#include "plugin_new.hpp"
 #include "vitrine/host/describe.hpp"
 
 namespace vitrine::cli {
