@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "common.hpp"
-#include "plugin_new.hpp"
 #include "vitrine/host/describe.hpp"
 
 namespace vitrine::cli {

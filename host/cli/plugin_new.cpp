@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plugin_new.hpp"
-
 #include <unistd.h>
 
 #include <algorithm>
