@@ -5,7 +5,7 @@
 namespace {
 
 constexpr std::array garments = {vitrine::templates::long_sleeve};
-VITRINE_CHECK(garments[0]);
+static_assert(vitrine::sdk::check(garments[0]));
 
 }  // namespace
 

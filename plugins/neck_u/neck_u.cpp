@@ -5,7 +5,7 @@
 namespace {
 
 constexpr std::array necklines = {vitrine::templates::neck_u};
-VITRINE_CHECK(necklines[0]);
+static_assert(vitrine::sdk::check(necklines[0]));
 
 }  // namespace
 

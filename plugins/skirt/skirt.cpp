@@ -6,7 +6,7 @@
 namespace {
 
 constexpr std::array garments = {vitrine::templates::skirt};
-VITRINE_CHECK(garments[0]);
+static_assert(vitrine::sdk::check(garments[0]));
 
 }  // namespace
 

@@ -224,14 +224,15 @@ TEST(OtherTools, code_that_an_author_adds_stays_inside_the_plugin) {
   EXPECT_EQ(exported(out / "build/chatty.vitrine.so"), "vitrine_plugin_entry\n");
 }
 
-// Every plugin that the tree has built, wherever it lies (but for what tests make and delete meanwhile); those that
-// must not have an entry are named.
+// Every plugin that the tree has built, wherever it lies, but for what tests make and delete meanwhile and for the
+// broken ones, of which only the sound control counts.
 TEST(OtherTools, every_built_plugin_exports_its_entry_and_nothing_else) {
   int seen = 0;
   for (auto entry = fs::recursive_directory_iterator(build); entry != fs::recursive_directory_iterator(); ++entry) {
     if (entry->path() == build / "tests" / "scratch") entry.disable_recursion_pending();
     const std::string name = entry->path().filename().string();
-    if (!name.ends_with(".vitrine.so") || name == "no_entry.vitrine.so") continue;
+    const bool broken = entry->path().parent_path().filename() == "bad_plugins" && name != "sound.vitrine.so";
+    if (!name.ends_with(".vitrine.so") || broken) continue;
     EXPECT_EQ(exported(entry->path()), "vitrine_plugin_entry\n") << entry->path();
     ++seen;
   }
