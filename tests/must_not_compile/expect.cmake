@@ -1,5 +1,5 @@
-# Compiles SOURCE with COMPILER (INCLUDE: folders, with commas between them). A source with lines "// expects: TEXT" must be refused, and the compiler's
-# words must hold every TEXT; any other source must compile.
+# Compiles SOURCE with COMPILER (INCLUDE: folders, with commas between them). A source with lines "// expects: TEXT" must
+# be refused, and the compiler's words must hold every TEXT; any other source must compile.
 string(REPLACE "," ";-I" flags "-I${INCLUDE}")
 execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only ${flags} ${SOURCE}
   RESULT_VARIABLE result OUTPUT_VARIABLE words ERROR_VARIABLE words)
