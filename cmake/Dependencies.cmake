@@ -17,6 +17,12 @@ find_package(embree 3.13 REQUIRED)                                   # debian: l
 find_package(OpenSSL 3.0 REQUIRED COMPONENTS Crypto)                 # debian: libssl-dev
 if(VITRINE_TESTS)
   find_package(GTest REQUIRED)                                       # debian: libgtest-dev libgmock-dev
+  # Plugins are built by other people's tools. Where one is missing its tests are there and fail.
+  find_program(VITRINE_GCC gcc)                                      # debian-test: g++
+  find_program(VITRINE_GXX g++)
+  find_program(VITRINE_CLANG clang)                                  # debian-test: clang
+  find_program(VITRINE_CLANGXX clang++)                              # debian-test: libc++-dev libc++abi-dev
+  find_program(VITRINE_DPKG_DEB dpkg-deb)                            # debian-test: dpkg-dev file
 endif()
 if(VITRINE_BENCHMARKS)
   find_package(benchmark REQUIRED)                                   # debian: libbenchmark-dev

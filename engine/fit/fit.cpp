@@ -15,6 +15,20 @@ std::string millimetres(double metres) {
   return std::to_string(std::lround(metres * 1e3)) + " mm";
 }
 
+/// Whether a seam has to pass below the arms: any but the shoulder line, which is the run of seams that leaves the neck
+/// edge on either side. A garment without a neck edge hangs below the arms.
+bool sewn_under_arms(const GarmentTemplate& garment) {
+  const int neck = garment.neck_edge(), count = static_cast<int>(garment.edges.size());
+  if (neck < 0) return true;
+  std::vector<char> shoulder_line(garment.edges.size(), 0);
+  for (const int step : {1, count - 1})
+    for (int e = (neck + step) % count; garment.edges[e].kind == EdgeKind::seam; e = (e + step) % count)
+      shoulder_line[e] = 1;
+  for (int e = 0; e < count; ++e)
+    if (garment.edges[e].kind == EdgeKind::seam && shoulder_line[e] == 0) return true;
+  return false;
+}
+
 /// How much narrower [-] a panel is laid, level by level, so that its sides hang between trunk and arms and are not
 /// sewn around the arms. Sewing lets the cloth out again around the trunk.
 class Narrowing {
@@ -113,6 +127,8 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
     for (const Vec2& q : panel.outline)
       if (std::all_of(bends.begin(), bends.end(), [&](const LimbBend& b) { return b.weight(q + shift) == 0; }))
         trunk.push_back(q + shift);
+    // Sides that nothing is sewn to (a poncho's) hang over the arms and keep their width.
+    if (!sewn_under_arms(garment)) trunk.clear();
     const Narrowing narrowing(gaps, trunk, !bends.empty());
 
     const double outwards = panel.side == Side::front ? 1 : -1;

@@ -55,6 +55,7 @@ int inspect_plugin(const PluginOptions& options, const std::string& id, const st
 void add_plugin(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("plugin", "Garment and neckline plugins");
   command->require_subcommand(1);
+  add_plugin_new(*command, exit_code);
   auto options = std::make_shared<PluginOptions>();
   auto* list = command->add_subcommand("list", "All garments and necklines, and every refused file with its reason");
   options->add_to(*list);

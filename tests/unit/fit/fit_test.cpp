@@ -190,6 +190,37 @@ TEST(Fit, sides_hang_between_trunk_and_arms_however_close_the_arms_are) {
   }
 }
 
+// A poncho's sides are open: nothing has to pass below the arms, so the cloth is laid over them, as wide as it is.
+TEST(Fit, sides_that_are_sewn_nowhere_hang_over_the_arms) {
+  const Doll doll;
+  Shirt cape(30);
+  cape.garment.limbs.clear();
+  const auto edge = [&](const std::string& name, const std::string& from, const std::string& to, EdgeKind kind) {
+    TemplateEdge e{name, 0, 0, kind};
+    for (std::size_t i = 0; i < cape.garment.features.size(); ++i) {
+      if (cape.garment.features[i].name == from) e.from = static_cast<int>(i);
+      if (cape.garment.features[i].name == to) e.to = static_cast<int>(i);
+    }
+    cape.garment.edges.push_back(e);
+  };
+  edge("neck", "neck_left", "neck_right", EdgeKind::neck);
+  edge("shoulder_line_right", "neck_right", "cuff_upper_right", EdgeKind::seam);
+  edge("rest", "cuff_upper_right", "cuff_upper_left", EdgeKind::open);
+  edge("shoulder_line_left", "cuff_upper_left", "neck_left", EdgeKind::seam);
+  const auto width = [&] {
+    const auto placed = place_panels(cape.garment, cape.pattern, doll.mannequin, doll.field);
+    EXPECT_TRUE(placed);
+    return cape.corner(*placed, 0, "armpit_right").x() - cape.corner(*placed, 0, "armpit_left").x();
+  };
+  EXPECT_NEAR(width(), 0.48, 1e-9);
+  // The same outline with a side seam passes between trunk and arms.
+  cape.garment.edges[2].to = cape.garment.edges[1].from;
+  edge("side", "armpit_right", "hem_right", EdgeKind::seam);
+  edge("hem", "hem_right", "hem_left", EdgeKind::open);
+  std::rotate(cape.garment.edges.begin() + 3, cape.garment.edges.begin() + 4, cape.garment.edges.end());
+  EXPECT_LT(width(), 0.45);
+}
+
 TEST(Fit, a_panel_of_another_size_than_any_body_is_refused) {
   const Doll doll;
   Shirt shirt(30);

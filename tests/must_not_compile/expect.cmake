@@ -1,0 +1,22 @@
+# Compiles SOURCE with COMPILER (INCLUDE: folders, with commas between them). A source with lines "// expects: TEXT" must
+# be refused, and the compiler's words must hold every TEXT; any other source must compile.
+string(REPLACE "," ";-I" flags "-I${INCLUDE}")
+execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only ${flags} ${SOURCE}
+  RESULT_VARIABLE result OUTPUT_VARIABLE words ERROR_VARIABLE words)
+file(STRINGS ${SOURCE} expected REGEX "^// expects: ")
+if(expected STREQUAL "")
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "does not compile, but is sound:\n${words}")
+  endif()
+  return()
+endif()
+if(result EQUAL 0)
+  message(FATAL_ERROR "compiles, but breaks a rule")
+endif()
+foreach(line IN LISTS expected)
+  string(REGEX REPLACE "^// expects: " "" text "${line}")
+  string(FIND "${words}" "${text}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "the compiler stopped, but did not say \"${text}\":\n${words}")
+  endif()
+endforeach()
