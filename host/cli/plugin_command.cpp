@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "common.hpp"
+#include "plugin_commands.hpp"
 #include "vitrine/host/describe.hpp"
 
 namespace vitrine::cli {
@@ -70,6 +71,8 @@ void add_plugin(CLI::App& app, int& exit_code) {
   inspect->add_option("--svg", a->svg, "Also draw the template with its seams into this file; - for standard output");
   a->options.add_to(*inspect);
   inspect->callback([a, &exit_code] { exit_code = inspect_plugin(a->options, a->id, a->svg); });
+
+  add_plugin_validate(*command, exit_code);
 }
 
 }  // namespace vitrine::cli

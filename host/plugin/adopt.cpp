@@ -170,8 +170,8 @@ std::span<const std::string_view> body_girths() {
   return girths;
 }
 
-Result<AdoptedPlugin> adopt(const LoadedPlugin& plugin, const std::string& file) {
-  const adoption::MemoryFence fence(plugin.image);
+Result<AdoptedPlugin> adopt(const LoadedPlugin& plugin, const std::string& file, std::vector<MemoryRange>* read) {
+  const adoption::MemoryFence fence(plugin.image, read);
   return adopt(plugin.entry, file);
 }
 

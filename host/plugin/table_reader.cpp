@@ -7,6 +7,42 @@
 namespace vitrine::adoption {
 
 namespace {
+thread_local std::span<const MemoryRange> fence;
+thread_local bool fenced = false;
+thread_local std::vector<MemoryRange>* record = nullptr;
+
+void note(const void* at, std::size_t size) {
+  const auto begin = reinterpret_cast<std::uintptr_t>(at);
+  if (record != nullptr) record->push_back({begin, begin + size});
+}
+}  // namespace
+
+MemoryFence::MemoryFence(std::span<const MemoryRange> ranges, std::vector<MemoryRange>* read) {
+  record = read;
+  fence = ranges;
+  fenced = true;
+}
+MemoryFence::~MemoryFence() {
+  fence = {};
+  fenced = false;
+  record = nullptr;
+}
+
+void expect_readable(const void* at, std::size_t size, const std::string& where) {
+  if (readable_bytes(at, size, where) < size)
+    throw Broken{"memory.inside", where + " runs out of the library's image"};
+  note(at, size);
+}
+
+std::size_t readable_bytes(const void* at, std::size_t most, const std::string& where) {
+  if (!fenced) return most;
+  const auto address = reinterpret_cast<std::uintptr_t>(at);
+  for (const MemoryRange& range : fence)
+    if (range.holds(address, 1)) return std::min<std::size_t>(most, range.end - address);
+  throw Broken{"memory.inside", where + " points to memory that is not the library's own"};
+}
+
+namespace {
 
 /// Length of the UTF-8 sequence at p, 0 if it is none: no overlong forms, surrogates or code points above 10FFFF.
 std::size_t utf8_sequence(const unsigned char* p, std::size_t left) {
@@ -34,33 +70,6 @@ std::string number_text(double value) {
 
 }  // namespace
 
-namespace {
-thread_local std::span<const MemoryRange> fence;
-thread_local bool fenced = false;
-}  // namespace
-
-MemoryFence::MemoryFence(std::span<const MemoryRange> ranges) {
-  fence = ranges;
-  fenced = true;
-}
-MemoryFence::~MemoryFence() {
-  fence = {};
-  fenced = false;
-}
-
-void expect_readable(const void* at, std::size_t size, const std::string& where) {
-  if (readable_bytes(at, size, where) < size)
-    throw Broken{"memory.inside", where + " runs out of the library's image"};
-}
-
-std::size_t readable_bytes(const void* at, std::size_t most, const std::string& where) {
-  if (!fenced) return most;
-  const auto address = reinterpret_cast<std::uintptr_t>(at);
-  for (const MemoryRange& range : fence)
-    if (range.holds(address, 1)) return std::min<std::size_t>(most, range.end - address);
-  throw Broken{"memory.inside", where + " points to memory that is not the library's own"};
-}
-
 std::string in_quotes(const std::string& text) {
   return "\"" + text + "\"";
 }
@@ -83,6 +92,7 @@ std::string read_text(const char* text, std::size_t most, const std::string& whe
       throw Broken{"text.utf8", where + " has a control character at byte " + std::to_string(i)};
     i += step;
   }
+  note(text, length + 1);
   return {text, length};
 }
 

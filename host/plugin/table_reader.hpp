@@ -56,9 +56,10 @@ inline constexpr std::size_t max_struct_size = 4096;
 
 /// While it lives, everything that is read on this thread has to lie in these ranges; without one, anything is read, as
 /// for tables that a test keeps on its own stack. This is what stands between a wild pointer and the process.
+/// `read`, where given, receives every range that is read.
 class MemoryFence {
  public:
-  explicit MemoryFence(std::span<const MemoryRange> ranges);
+  explicit MemoryFence(std::span<const MemoryRange> ranges, std::vector<MemoryRange>* read = nullptr);
   ~MemoryFence();
   MemoryFence(const MemoryFence&) = delete;
   MemoryFence& operator=(const MemoryFence&) = delete;

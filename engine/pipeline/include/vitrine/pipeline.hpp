@@ -149,6 +149,18 @@ Conversion cut_and_mesh(const ConvertRequest& request);
 /// The rooms as far as the cloth at rest: no texture, files or pictures.
 Conversion cut_and_sew(const ConvertRequest& request);
 
+/// What became of one fabric on a pattern that was cut, meshed and placed before.
+struct FabricDrape {
+  std::string fabric;
+  Drape drape;
+  std::optional<Error> error;
+};
+
+/// The rooms as far as the cloth at rest, the ones before the fabric entered once for all of the garment's fabrics, or
+/// for the first `most` of them. `item` is left as cut_and_mesh() leaves it; its error, when a room refused, means that
+/// nothing was sewn.
+std::vector<FabricDrape> cut_and_sew_fabrics(const ConvertRequest& request, std::size_t most, Conversion& item);
+
 /// report.json: status, reason, features in pixels of the photos as given, mesh, drape and texture figures, how the
 /// files stand to the limits of shops ("commerce"), milliseconds per room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
