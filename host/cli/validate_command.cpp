@@ -3,6 +3,7 @@
 #include "vitrine/validate.hpp"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "common.hpp"
 #include "plugin_commands.hpp"
@@ -28,6 +29,12 @@ int validate(const ValidateArguments& arguments) {
   ValidateOptions options = arguments.options;
   options.partners = arguments.partners.search();
   options.program = "/proc/self/exe";
+  if (!options.keep.empty()) {
+    std::error_code failed;
+    std::filesystem::create_directories(options.keep, failed);
+    if (failed)
+      return fail({Cause::unwritable, "CANNOT_WRITE", options.keep + ": the folder cannot be made", "name another", ""});
+  }
   bool pipeline = options.level >= 4;
   if (!options.only.empty()) {
     pipeline = false;
@@ -85,8 +92,9 @@ int write_lock(const PluginOptions& options, const std::string& out) {
   return 0;
 }
 
-int digest(DigestRequest request, const PluginOptions& partners) {
+int digest(DigestRequest request, const PluginOptions& partners, bool alone) {
   request.partners = partners.search();
+  request.partners.built_in = !alone;
   const auto body = MannequinOptions{}.make_body();
   if (!body) return fail(body.error());
   const auto text = conversion_digest(request, *body);
@@ -99,6 +107,7 @@ void add_digest(CLI::App& command, int& exit_code) {
   struct Arguments {
     DigestRequest request;
     PluginOptions partners;
+    bool alone = false;
   };
   auto a = std::make_shared<Arguments>();
   // Without a group it is in no help text: only validate calls it.
@@ -108,8 +117,9 @@ void add_digest(CLI::App& command, int& exit_code) {
   digest_command->add_option("--neckline", a->request.neckline)->required();
   digest_command->add_option("--front", a->request.front)->required();
   digest_command->add_option("--back", a->request.back)->required();
+  digest_command->add_flag("--alone", a->alone);
   a->partners.add_to(*digest_command);
-  digest_command->callback([a, &exit_code] { exit_code = digest(a->request, a->partners); });
+  digest_command->callback([a, &exit_code] { exit_code = digest(a->request, a->partners, a->alone); });
 }
 
 }  // namespace
@@ -133,6 +143,7 @@ void add_plugin_validate(CLI::App& command, int& exit_code) {
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   run->add_option("--photo", a->options.photos, "Also convert this front photo of the garment; may be given more than once");
+  run->add_option("--keep", a->options.keep, "Keep the photos that are drawn in this folder");
   a->partners.add_to(*run);
   run->callback([a, &exit_code] { exit_code = validate(*a); });
 

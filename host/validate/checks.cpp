@@ -15,10 +15,10 @@ constexpr CheckInfo load_checks[] = {
 };
 
 constexpr CheckInfo more_template_checks[] = {
-    {"pose.simple", 3, "The outline of a pose does not cross or touch itself."},
+    {"pose.simple", 3, "The outline of a pose does not cross or touch itself, but where a limb lies on the trunk."},
     {"pose.mirror", 3, "Mirror partners lie at about one height, and on the same sides of each other in every pose."},
     {"pose.radius", 3, "A search circle reaches at most three times as far as the nearest other feature lies."},
-    {"pose.size", 3, "A pose fills its box: its features span nine tenths of its width and eight tenths of its height."},
+    {"pose.size", 3, "A pose fills its box: its features span at least six tenths of it in both directions."},
     {"landmark.side", 3, "A feature on a landmark of the left lies left of one on the same landmark of the right."},
     {"landmark.mirror", 3, "Mirror partners lie on landmarks that are partners too."},
     {"seam.length", 3, "Edges sewn together are at most three times as long as each other, in every pose."},

@@ -88,6 +88,7 @@ void check_other_process(const Session& session, const Subject& subject, const D
   std::vector<std::string> arguments = {options.program, "plugin", "digest", subject.file.path.string(), "--garment",
                                         item.request.garment.id, "--neckline", item.request.neckline, "--front",
                                         item.request.front, "--back", item.request.back};
+  if (!options.partners.built_in) arguments.push_back("--alone");
   for (const auto& folder : options.partners.folders)
     arguments.insert(arguments.end(), {"--plugin-dir", folder.string()});
   for (const auto& file : options.partners.files) arguments.insert(arguments.end(), {"--plugin", file.string()});
@@ -98,6 +99,26 @@ void check_other_process(const Session& session, const Subject& subject, const D
     session.fail("determinism.process", "another process read other tables or wrote other bytes");
   else
     session.pass("determinism.process");
+}
+
+void check_files(const Session& session, const Subject& subject, const DrawnItem& item) {
+  session.begin("pipeline.files");
+  const Conversion once = convert(item.request);
+  if (once.error || once.garment_glb.empty() || once.preview_png.empty()) {
+    session.fail("pipeline.files",
+                 item.what + ": " + (once.error ? once.error->code + " in " + once.error->stage : "a file is empty"));
+    session.skip("determinism.repeat", "nothing was converted");
+    session.skip("determinism.process", "nothing was converted");
+    return;
+  }
+  session.pass("pipeline.files", std::to_string(once.garment_glb.size() / 1024) + " kB");
+  if (!session.wants(5)) return;
+  session.begin("determinism.repeat");
+  const std::string files = files_digest(once);
+  session.conclude("determinism.repeat", files_digest(convert(item.request)) == files
+                                             ? std::vector<std::string>{}
+                                             : std::vector<std::string>{"the second conversion wrote other bytes"});
+  check_other_process(session, subject, item, template_digest(subject.plugin) + " " + files);
 }
 
 }  // namespace
@@ -158,26 +179,15 @@ std::string bytes_digest(const std::vector<MemoryRange>& ranges) {
   return hash.hex();
 }
 
-void check_determinism(const Session& session, const Subject& subject, const DrawnItem& item,
+void check_determinism(const Session& session, const Subject& subject, const DrawnItem* item,
                        const std::string& tables_before) {
-  const Conversion once = convert(item.request);
-  if (once.error || once.garment_glb.empty() || once.preview_png.empty())
-    session.fail("pipeline.files",
-                 item.what + ": " + (once.error ? once.error->code + ", " + once.error->message : "a file is empty"));
-  else
-    session.pass("pipeline.files", std::to_string(once.garment_glb.size() / 1024) + " kB");
-  if (!session.wants(5)) return;
-  if (once.garment_glb.empty()) {
-    session.skip("determinism.repeat", "nothing was converted");
-    session.skip("determinism.process", "nothing was converted");
+  if (item != nullptr) {
+    check_files(session, subject, *item);
   } else {
-    session.begin("determinism.repeat");
-    const std::string files = files_digest(once);
-    session.conclude("determinism.repeat", files_digest(convert(item.request)) == files
-                                               ? std::vector<std::string>{}
-                                               : std::vector<std::string>{"the second conversion wrote other bytes"});
-    check_other_process(session, subject, item, template_digest(subject.plugin) + " " + files);
+    for (const char* check : {"pipeline.files", "determinism.repeat", "determinism.process"})
+      session.skip(check, "there is no sound item to convert");
   }
+  if (!session.wants(5)) return;
   session.begin("determinism.tables");
   session.conclude("determinism.tables", bytes_digest(subject.tables) == tables_before
                                              ? std::vector<std::string>{}

@@ -59,7 +59,8 @@ void check_hardening(const Session& session, const Subject& subject) {
   for (const MemoryRange& range : subject.tables)
     for (const Mapping& map : maps)
       if (map.writable && range.begin < map.end && range.end > map.begin && &map != last) {
-        findings.push_back("a table lies in writable memory; declare tables const or constexpr");
+        findings.push_back("a table lies in writable memory; declare tables const, and write out the type of a constexpr "
+                           "std::array (GCC leaves one whose type it deduces writable)");
         last = &map;
       }
   session.conclude("hardening.readonly", findings);

@@ -110,6 +110,12 @@ Result<DrawnItem> draw_item(const Session& session, const GarmentTemplate& garme
     const auto png = encode_png(photo.rgb);
     if (!png) return png.error();
     if (auto e = write_file(path, *png)) return *e;
+    if (!session.options.keep.empty())
+      if (auto e = write_file(session.options.keep + "/" + garment.id + "-" + pose.name +
+                                  (neckline != nullptr ? "-" + neckline->id : "") +
+                                  (side == Side::front ? "-front.png" : "-back.png"),
+                              *png))
+        return *e;
     (side == Side::front ? request.front : request.back) = path;
     if (side == Side::front) {
       item.features = photo.features;

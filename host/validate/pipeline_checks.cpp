@@ -38,20 +38,24 @@ Wardrobe wardrobe_of(const Session& session, const AdoptedPlugin& plugin) {
 class PipelineChecks {
  public:
   PipelineChecks(const Session& session, const AdoptedPlugin& plugin, const std::string& folder)
-      : session_(session), plugin_(plugin), wardrobe_(wardrobe_of(session, plugin)), folder_(folder) {}
+      : session_(session), plugin_(plugin), wardrobe_(wardrobe_of(session, plugin)), folder_(folder) {
+    findings_.folder = folder;
+  }
 
   void run() {
     for (const GarmentTemplate& garment : plugin_.garments) {
       const bool neck = garment.neck_edge() >= 0 && !wardrobe_.necklines.empty();
       const std::size_t necklines = neck ? wardrobe_.necklines.size() : 1;
-      for (std::size_t p = 0; p < garment.poses.size(); ++p)
+      const auto poses = drawable_poses(garment);
+      findings_.lying += static_cast<int>(garment.poses.size() - poses.size());
+      for (std::size_t p = 0; p < poses.size(); ++p)
         for (std::size_t n = 0; n < necklines; ++n)
           if (p == 0 || n == p % necklines)
-            try_item(garment, garment.poses[p], neck ? &wardrobe_.necklines[n] : nullptr,
-                     p == 0 ? garment.fabrics.size() : 1);
+            try_item(garment, *poses[p], neck ? &wardrobe_.necklines[n] : nullptr, p == 0 ? garment.fabrics.size() : 1);
     }
     for (const NecklineTemplate& neckline : plugin_.necklines)
-      for (const GarmentTemplate& garment : wardrobe_.partners) try_item(garment, garment.poses.front(), &neckline, 1);
+      for (const GarmentTemplate& garment : wardrobe_.partners)
+        if (const auto poses = drawable_poses(garment); !poses.empty()) try_item(garment, *poses.front(), &neckline, 1);
     report();
   }
 
@@ -62,10 +66,17 @@ class PipelineChecks {
                                                                    : nullptr;
     if (garment == nullptr) return std::nullopt;
     const bool neck = garment->neck_edge() >= 0 && !wardrobe_.necklines.empty();
-    auto item = draw_item(session_, *garment, garment->poses.front(), neck ? &wardrobe_.necklines.front() : nullptr,
+    const auto poses = drawable_poses(*garment);
+    if (poses.empty()) return std::nullopt;
+    auto item = draw_item(session_, *garment, *poses.front(), neck ? &wardrobe_.necklines.front() : nullptr,
                           wardrobe_.necklines, folder_);
     if (!item) return std::nullopt;
     return *std::move(item);
+  }
+
+  /// Whether a whole conversion is worth while.
+  bool sound() const {
+    return std::all_of(findings_.broken.begin(), findings_.broken.end(), [](const auto& b) { return b.second.empty(); });
   }
 
   void photos() {
@@ -96,6 +107,14 @@ class PipelineChecks {
   }
 
  private:
+  /// A sleeve that lies on the body has no outline of its own to draw.
+  static std::vector<const TemplatePose*> drawable_poses(const GarmentTemplate& garment) {
+    std::vector<const TemplatePose*> poses;
+    for (const TemplatePose& pose : garment.poses)
+      if (crossing_edges(garment, pose).empty()) poses.push_back(&pose);
+    return poses;
+  }
+
   void try_item(const GarmentTemplate& garment, const TemplatePose& pose, const NecklineTemplate* neckline,
                 std::size_t fabrics) {
     // Every photo begins anew, so that the time limit is one photo's.
@@ -111,12 +130,16 @@ class PipelineChecks {
                   findings_.residual, findings_.gap_mm, findings_.depth_mm);
     for (const std::string_view check : drape_checks) {
       if (!findings_.done.contains(check) && !findings_.broken.contains(check)) {
-        session_.skip(check, findings_.photos == 0 ? "no garment with a neck edge is loaded to try it on"
+        session_.skip(check, findings_.photos == 0 ? "nothing could be drawn: no garment with a neck edge, or no pose clear of itself"
                                                    : "nothing came that far");
         continue;
       }
       session_.conclude(check, findings_.broken[check],
-                        check == "pipeline.features" ? std::to_string(findings_.photos) + " photos"
+                        check == "pipeline.features"
+                            ? std::to_string(findings_.photos) + " photos" +
+                                  (findings_.lying > 0 ? ", " + std::to_string(findings_.lying) +
+                                                             " poses not drawn: a limb lies on the trunk"
+                                                       : "")
                         : check == "pipeline.drape"  ? worst
                                                      : "");
     }
@@ -138,10 +161,10 @@ void check_pipeline(const Session& session, const Subject& subject, const std::s
   PipelineChecks checks(session, subject.plugin, folder);
   checks.run();
   checks.photos();
+  if (!checks.sound()) return check_determinism(session, subject, nullptr, tables);
   session.begin("pipeline.files");
   const auto item = checks.first_item();
-  if (!item) return session.skip("pipeline.files", "no garment with a neck edge is loaded to try it on");
-  check_determinism(session, subject, *item, tables);
+  check_determinism(session, subject, item ? &*item : nullptr, tables);
 }
 
 }  // namespace vitrine::validation

@@ -15,7 +15,12 @@ struct PipelineFindings {
   std::set<std::string_view> done;  ///< checks that had something to look at
   int photos = 0, drapes = 0;
   double residual = 0, gap_mm = 0, depth_mm = 0;  ///< the worst
-  void find(std::string_view check, const std::string& what) { broken[check].push_back(what); }
+  int lying = 0;      ///< poses that cannot be drawn, because a limb lies on the trunk
+  std::string folder;  ///< of the drawn photos; left out of messages, which are the same in every run
+  void find(std::string_view check, std::string what) {
+    for (std::size_t at; (at = what.find(folder + "/")) != std::string::npos;) what.erase(at, folder.size() + 1);
+    broken[check].push_back(std::move(what));
+  }
 };
 
 /// A garment in one pose with one neckline, drawn into two files.
@@ -35,8 +40,8 @@ Result<DrawnItem> draw_item(const Session& session, const GarmentTemplate& garme
 /// Converts a drawn item as far as the cloth at rest, in the first `fabrics` fabrics, and judges it.
 void judge_item(const DrawnItem& item, std::size_t fabrics, PipelineFindings& findings);
 
-/// Level 5, with an item that converts.
-void check_determinism(const Session& session, const Subject& subject, const DrawnItem& item,
+/// pipeline.files and level 5. No item: nothing can be converted, or what was tried failed before.
+void check_determinism(const Session& session, const Subject& subject, const DrawnItem* item,
                        const std::string& tables_before);
 
 }  // namespace vitrine::validation

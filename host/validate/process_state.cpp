@@ -59,7 +59,7 @@ std::uint64_t address_space() {
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-int children() {
+int count_children() {
   std::ifstream in("/proc/self/task/" + std::to_string(::getpid()) + "/children");
   int count = 0;
   for (std::string word; in >> word;) ++count;
@@ -76,7 +76,7 @@ std::uintptr_t address(F function) {
 ProcessState ProcessState::now() {
   ProcessState s;
   s.threads = entries_of("/proc/self/task");
-  s.children = children();
+  s.children = count_children();
   s.open_files = validation::open_files();
   for (char** e = environ; e != nullptr && *e != nullptr; ++e) s.environment.emplace_back(*e);
   std::sort(s.environment.begin(), s.environment.end());

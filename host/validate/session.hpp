@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vitrine/host/child.hpp"
@@ -49,6 +50,9 @@ struct Subject {
 bool check_loading(const Session& session, const PluginFile& file, Subject& subject);
 /// What goes beyond the adoption rules.
 void check_templates(const Session& session, const AdoptedPlugin& plugin);
+/// Pairs of edges that cross or touch besides in their common corner.
+std::vector<std::pair<std::size_t, std::size_t>> crossing_edges(const GarmentTemplate& garment,
+                                                                const TemplatePose& pose);
 /// Levels 4 and 5. `folder` is empty and the session's own.
 void check_pipeline(const Session& session, const Subject& subject, const std::string& folder);
 /// Level 6 but for what check_loading() saw while it loaded; that is reported by it.

@@ -46,6 +46,14 @@ std::string_view place_of(std::string_view landmark) {
   return side.empty() ? landmark : landmark.substr(0, landmark.size() - side.size() - 1);
 }
 
+/// An edge that begins or ends at a limb's tip.
+bool is_of_limb(const GarmentTemplate& g, std::size_t edge) {
+  return std::any_of(g.limbs.begin(), g.limbs.end(), [&](const TemplateLimb& limb) {
+    const TemplateEdge& e = g.edges[edge];
+    return e.from == limb.tip_a || e.from == limb.tip_b || e.to == limb.tip_a || e.to == limb.tip_b;
+  });
+}
+
 /// Everything about one garment.
 class GarmentChecks {
  public:
@@ -74,20 +82,11 @@ class GarmentChecks {
   std::string name(const TemplateEdge& edge) const { return "\"" + edge.name + "\""; }
 
   void simple(const TemplatePose& pose) {
-    const std::size_t n = g_.edges.size();
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = i + 1; j < n; ++j) {
-        const TemplateEdge &a = g_.edges[i], &b = g_.edges[j];
-        const Vec2 &p = pose.uv[a.from], &q = pose.uv[a.to], &r = pose.uv[b.from], &s = pose.uv[b.to];
-        // Neighbours share a corner; they may not fold back onto each other.
-        const bool next = j == i + 1, last = i == 0 && j == n - 1;
-        const auto fold = [&](const Vec2& corner, const Vec2& one, const Vec2& other) {
-          return std::abs(cross(one - corner, other - corner)) < 1e-9 && (one - corner).dot(other - corner) > 0;
-        };
-        if (next && last) continue;
-        if (next ? fold(q, p, s) : last ? fold(p, q, r) : segments_meet(p, q, r, s))
-          find("pose.simple", "edges " + name(a) + " and " + name(b) + " cross or touch" + in(pose));
-      }
+    for (const auto& [i, j] : crossing_edges(g_, pose))
+      // A sleeve may lie on the body; the outline as it is seen then goes round both.
+      if (is_of_limb(g_, i) == is_of_limb(g_, j))
+        find("pose.simple",
+             "edges " + name(g_.edges[i]) + " and " + name(g_.edges[j]) + " cross or touch" + in(pose));
   }
 
   void mirror(const TemplatePose& pose) {
@@ -119,8 +118,8 @@ class GarmentChecks {
     Vec2 low = pose.uv[0], high = pose.uv[0];
     for (const Vec2& p : pose.uv) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const Vec2 span = high - low;
-    // A hem may hang below its ends, and a neckline rise above them, so the features need not touch the box.
-    if (span.x() < 0.9 || span.y() < 0.8)
+    // A hem hangs below its ends, a sleeve bends out beyond its cuff: the features need not touch the box.
+    if (span.minCoeff() < 0.6)
       find("pose.size", "features span " + number(span.x()) + " x " + number(span.y()) + " of the box" + in(pose));
   }
 
@@ -264,6 +263,23 @@ void check_neckline(const NecklineTemplate& n, Findings& findings) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::size_t, std::size_t>> crossing_edges(const GarmentTemplate& g, const TemplatePose& pose) {
+  std::vector<std::pair<std::size_t, std::size_t>> crossings;
+  const std::size_t n = g.edges.size();
+  // Neighbours share a corner; they may not fold back onto each other.
+  const auto fold = [](const Vec2& corner, const Vec2& one, const Vec2& other) {
+    return std::abs(cross(one - corner, other - corner)) < 1e-9 && (one - corner).dot(other - corner) > 0;
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const Vec2 &p = pose.uv[g.edges[i].from], &q = pose.uv[g.edges[i].to], &r = pose.uv[g.edges[j].from],
+                 &s = pose.uv[g.edges[j].to];
+      const bool next = j == i + 1, last = i == 0 && j == n - 1;
+      if (next ? fold(q, p, s) : last ? fold(p, q, r) : segments_meet(p, q, r, s)) crossings.emplace_back(i, j);
+    }
+  return crossings;
+}
 
 void check_templates(const Session& session, const AdoptedPlugin& plugin) {
   session.begin("pose.simple");

@@ -14,6 +14,9 @@ constexpr int long_side = 640;       // [px] of the garment: enough for corners,
 constexpr int margin = 60;           // [px] of board around it
 constexpr double back_depth = 0.14;  // [-] of the neck's width: how low a neckline lies at the back
 
+/// [m] Clothes are cut that much lower than the joint that they go around: armholes below armpits, rises below crotches.
+constexpr double looser = 0.07;
+
 using Points = std::vector<Vec2>;
 
 struct Look {
@@ -79,7 +82,7 @@ double box_proportions(const GarmentTemplate& garment, const TemplatePose& pose,
       // Closer than a hand's breadth the body's own slopes (of the shoulders) decide; a sleeve's end hangs anywhere.
       if (at_tip[i] || !(drop > 0.08) || shown < 0.1 || drop >= nearest) continue;
       nearest = drop;
-      height = drop / shown;
+      height = (drop + looser) / shown;
     }
   return std::clamp(height / width, 0.35, 3.0);
 }
@@ -97,28 +100,59 @@ TemplatePhoto draw_template_photo(const GarmentTemplate& garment, const Template
     const Vec2 moved(move * chance(), move * chance());
     photo.features.push_back(Vec2(margin, margin) + pose.uv[i].cwiseProduct(box) + moved);
   }
+  // A pose's box is that of the silhouette, which goes beyond the corners where edges are curved: a hem hangs, a
+  // sleeve bends. The edge next to a side that no corner reaches is bowed until it does.
+  std::vector<Vec2> bow(garment.edges.size(), Vec2::Zero());
+  for (const Vec2& side_way : {Vec2(-1, 0), Vec2(1, 0), Vec2(0, -1), Vec2(0, 1)}) {
+    const Vec2 corner = Vec2(margin, margin) + (side_way.cwiseMax(0)).cwiseProduct(box);
+    const auto short_of = [&](const Vec2& p) { return (corner - p).dot(side_way); };
+    double slack = 1e9;
+    for (const Vec2& p : photo.features) slack = std::min(slack, short_of(p));
+    if (slack < 0.015 * long_side || side_way.y() < 0) continue;  // a top edge is the neckline's, or straight
+    // Bowed as a parabola over the chord; of all edges long enough to be bowed, the one that needs least.
+    double least = 0.25 * long_side;
+    std::size_t bowed = garment.edges.size();
+    for (std::size_t e = 0; e < garment.edges.size(); ++e) {
+      const Vec2 &from = photo.features[garment.edges[e].from], &to = photo.features[garment.edges[e].to];
+      if (static_cast<int>(e) == garment.neck_edge() || (to - from).norm() < 0.2 * long_side) continue;
+      // Distance d(s) to the side minus 4 s (1 - s) b has to reach 0 somewhere: b = min over s of d / (4 s (1 - s)).
+      double need = 1e9;
+      for (int i = 1; i < 48; ++i) {
+        const double s = i / 48.0;
+        need = std::min(need, short_of(from + s * (to - from)) / (4 * s * (1 - s)));
+      }
+      if (need >= least) continue;
+      least = need;
+      bowed = e;
+    }
+    if (bowed < garment.edges.size()) bow[bowed] += least * side_way;
+  }
   Points whole, face;  // with the back's neckline, and with this side's
-  Points lower;        // the front's neckline alone
+  const auto back_neck = [](double s) { return Vec2(s, back_depth * 4 * s * (1 - s)); };
   for (std::size_t e = 0; e < garment.edges.size(); ++e) {
     const Vec2 &from = photo.features[garment.edges[e].from], &to = photo.features[garment.edges[e].to];
     whole.push_back(from);
     face.push_back(from);
+    if (bow[e] != Vec2::Zero())
+      for (int i = 1; i < 48; ++i) {
+        const double s = i / 48.0;
+        whole.push_back(from + s * (to - from) + 4 * s * (1 - s) * bow[e]);
+        face.push_back(whole.back());
+      }
     if (static_cast<int>(e) != garment.neck_edge() || neckline == nullptr) continue;
-    hang(whole, from, to, [](double s) { return Vec2(s, back_depth * 4 * s * (1 - s)); });
+    hang(whole, from, to, back_neck);
     const double depth = neckline->default_depth;
-    for (std::size_t i = 1; i + 1 < neckline->profile.size(); ++i) {
-      const Vec2 along = to - from, down(-along.y(), along.x());
-      const Vec2& p = neckline->profile[i];
-      lower.push_back(from + p.x() * along + p.y() * depth * down);
-    }
-    // A neckline shallower than the back's would show nothing of the inside.
+    // A neckline shallower than the back's shows nothing of the inside.
     bool deeper = false;
     for (const double s : {0.25, 0.5, 0.75})
-      deeper = deeper || depth * depth_at(neckline->profile, s) > back_depth * 4 * s * (1 - s);
-    if (side == Side::front && deeper)
-      face.insert(face.end(), lower.begin(), lower.end());
-    else
-      hang(face, from, to, [](double s) { return Vec2(s, back_depth * 4 * s * (1 - s)); });
+      deeper = deeper || depth * depth_at(neckline->profile, s) > back_neck(s).y();
+    if (side == Side::back || !deeper) {
+      hang(face, from, to, back_neck);
+      continue;
+    }
+    const Vec2 along = to - from, down(-along.y(), along.x());
+    for (std::size_t i = 1; i + 1 < neckline->profile.size(); ++i)
+      face.push_back(from + neckline->profile[i].x() * along + neckline->profile[i].y() * depth * down);
   }
   const Look look = look_of(seed);
   const int width = static_cast<int>(box.x()) + 2 * margin, height = static_cast<int>(box.y()) + 2 * margin;

@@ -46,6 +46,7 @@ struct ValidateOptions {
   double seconds = 120;       ///< [s] the longest that one check may take
   PluginSearch partners;      ///< necklines for garments and garments for necklines
   std::vector<std::string> photos;  ///< front photos of the garment itself, to be converted besides the drawn ones
+  std::string keep;                  ///< folder in which the drawn photos are kept; empty = they are not
   std::shared_ptr<const Body> body;  ///< needed from level 4 on
   std::string program;        ///< of this vitrine, for the check in another process; empty = that check is skipped
 };

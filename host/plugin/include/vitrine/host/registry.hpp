@@ -18,7 +18,7 @@ struct PluginSearch {
   std::vector<std::filesystem::path> files;    ///< --plugin FILE
   std::vector<std::filesystem::path> folders;  ///< --plugin-dir DIR
   bool built_in = true;                        ///< then the folder that belongs to the program, if there is one
-  std::filesystem::path lock;                  ///< only what this plugins.lock lists; empty = everything
+  std::filesystem::path lock = {};             ///< only what this plugins.lock lists; empty = everything
   double rehearsal_seconds = 10;               ///< [s] the longest that loading one file may take
 };
 
