@@ -177,6 +177,9 @@ std::optional<Error> write_conversion(const ConvertRequest& request, const Conve
 /// A picture for people: the photo as given with silhouette outline, inside of the back tinted, feature points by name.
 /// Small photos are enlarged, and a caption is added below. Empty when there is no silhouette to show.
 Image draw_view(const ViewRequest& request, const View& view);
+/// The same with the template that was matched on top (the first pose where none was): its edges, points (crosses) and
+/// search circles in the silhouette's box, for whoever writes one.
+Image draw_template(const ViewRequest& request, const View& view);
 Image draw_mesh(const PanelMesh& mesh, int height = 900);
 
 }  // namespace vitrine
