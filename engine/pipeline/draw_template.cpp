@@ -57,7 +57,8 @@ Image draw_template(const ViewRequest& request, const View& view) {
       cv::line(canvas, fixed(place(pose.uv[edge.from])), fixed(place(pose.uv[edge.to])), ink, width, cv::LINE_AA, 4);
     for (std::size_t i = 0; i < pose.uv.size(); ++i) {
       const cv::Point at = fixed(place(pose.uv[i]));
-      cv::circle(canvas, at, static_cast<int>(std::lround(pose.radius[i] * to_picture * 16)), ink, width, cv::LINE_AA, 4);
+      cv::circle(canvas, at, static_cast<int>(std::lround(pose.radius[i] * to_picture * 16)), ink, width, cv::LINE_AA,
+                 4);
       for (const auto& [dx, dy] : {std::pair{1, 1}, std::pair{1, -1}}) {
         const cv::Point arm(static_cast<int>(96 * unit) * dx, static_cast<int>(96 * unit) * dy);
         cv::line(canvas, at - arm, at + arm, ink, width, cv::LINE_AA, 4);

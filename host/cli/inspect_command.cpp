@@ -56,7 +56,8 @@ int inspect_plugin(const InspectArguments& a) {
                    "vitrine features shows which neckline a photo has", ""});
     return show(*neckline, a.svg);
   }
-  return fail({Cause::plugin, "UNKNOWN_ID", "no plugin supplies \"" + a.id + "\"", "vitrine plugin list shows all ids", ""});
+  return fail(
+      {Cause::plugin, "UNKNOWN_ID", "no plugin supplies \"" + a.id + "\"", "vitrine plugin list shows all ids", ""});
 }
 
 }  // namespace
@@ -65,9 +66,11 @@ void add_plugin_inspect(CLI::App& command, int& exit_code) {
   auto a = std::make_shared<InspectArguments>();
   auto* inspect = command.add_subcommand("inspect", "One garment's or neckline's tables");
   inspect->add_option("id", a->id, "Id of a garment or neckline")->required();
-  inspect->add_option("--svg", a->svg, "Also draw the template into this file; - for the drawing alone on standard output");
+  inspect->add_option("--svg", a->svg,
+                      "Also draw the template into this file; - for the drawing alone on standard output");
   inspect->add_option("--photo", a->photo, "A front photo to lay the garment's template over");
-  inspect->add_option("--png", a->png, "Picture of that: the template's points, search circles and edges, and what was found");
+  inspect->add_option("--png", a->png,
+                      "Picture of that: the template's points, search circles and edges, and what was found");
   a->options.add_to(*inspect);
   inspect->callback([a, &exit_code] { exit_code = inspect_plugin(*a); });
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // vitrine plugin validate, checks, lock, and what validate asks of another process.
-#include "vitrine/validate.hpp"
-
 #include <cstdio>
 #include <filesystem>
 
 #include "common.hpp"
 #include "plugin_commands.hpp"
+#include "vitrine/validate.hpp"
 
 namespace vitrine::cli {
 namespace {
@@ -33,7 +32,8 @@ int validate(const ValidateArguments& arguments) {
     std::error_code failed;
     std::filesystem::create_directories(options.keep, failed);
     if (failed)
-      return fail({Cause::unwritable, "CANNOT_WRITE", options.keep + ": the folder cannot be made", "name another", ""});
+      return fail(
+          {Cause::unwritable, "CANNOT_WRITE", options.keep + ": the folder cannot be made", "name another", ""});
   }
   bool pipeline = options.level >= 4;
   if (!options.only.empty()) {
@@ -67,14 +67,16 @@ int list_checks(bool markdown) {
     if (check.level != level) {
       level = check.level;
       const std::string title = "Level " + std::to_string(level) + ": " + std::string(level_name(level));
-      text += markdown ? (level > 1 ? "\n### " : "### ") + title + "\n\n| Check | What a plugin that passes keeps |\n|---|---|\n"
+      text += markdown ? (level > 1 ? "\n### " : "### ") + title +
+                             "\n\n| Check | What a plugin that passes keeps |\n|---|---|\n"
                        : (level > 1 ? "\n" : "") + title + "\n";
     }
     std::string name(check.name);
     if (markdown)
       text += "| `" + name + "` | " + std::string(check.description) + " |\n";
     else
-      text += "  " + name + std::string(name.size() < 24 ? 24 - name.size() : 1, ' ') + std::string(check.description) + "\n";
+      text += "  " + name + std::string(name.size() < 24 ? 24 - name.size() : 1, ' ') + std::string(check.description) +
+              "\n";
   }
   if (auto e = print(text)) return fail(*e);
   return 0;
@@ -135,14 +137,18 @@ void add_plugin_validate(CLI::App& command, int& exit_code) {
       ->check(CLI::Range(1, max_check_level))
       ->capture_default_str();
   run->add_option("--only", a->options.only, "Report only this check, or those whose names begin so (hardening)");
-  run->add_option("--json", a->json, "Also write the report as JSON into this file; - for JSON alone on standard output");
+  run->add_option("--json", a->json,
+                  "Also write the report as JSON into this file; - for JSON alone on standard output");
   run->add_flag("--all", a->all, "List passed and skipped checks too");
-  run->add_option("--seed", a->options.seed, "Vary corners and colours of the photos that are drawn; 0 = as the template says")
+  run->add_option("--seed", a->options.seed,
+                  "Vary corners and colours of the photos that are drawn; 0 = as the template says")
       ->capture_default_str();
   run->add_option("--timeout", a->options.seconds, "Seconds that one check may take")
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
-  run->add_option("--photo", a->options.photos, "Also convert this front photo of the garment; may be given more than once");
+  run->add_option("--photo", a->options.photos,
+                  "Also convert this front photo of the garment; may be given more than once")
+      ->allow_extra_args(false);
   run->add_option("--keep", a->options.keep, "Keep the photos that are drawn in this folder");
   a->partners.add_to(*run);
   run->callback([a, &exit_code] { exit_code = validate(*a); });
@@ -157,7 +163,8 @@ void add_plugin_validate(CLI::App& command, int& exit_code) {
     std::string out;
   };
   auto l = std::make_shared<Lock>();
-  auto* lock = command.add_subcommand("lock", "Write a plugins.lock of all plugins found: SHA-256, id and version of each");
+  auto* lock =
+      command.add_subcommand("lock", "Write a plugins.lock of all plugins found: SHA-256, id and version of each");
   lock->add_option("--out", l->out, "File to write; - for standard output")->required();
   l->options.add_to(*lock);
   lock->callback([l, &exit_code] { exit_code = write_lock(l->options, l->out); });

@@ -149,7 +149,8 @@ bool is_semver(std::string_view version) {
 void read_identity(const vitrine_plugin& entry, AdoptedPlugin& plugin) {
   const std::string id = read_text(entry.id, 128, "the plugin's id");
   if (!is_reverse_uri(id))
-    throw Broken{"entry.id", "the plugin's id is " + in_quotes(id) + ", not a reverse URI such as \"org.example.poncho\""};
+    throw Broken{"entry.id",
+                 "the plugin's id is " + in_quotes(id) + ", not a reverse URI such as \"org.example.poncho\""};
   plugin.identity.id = id;
   plugin.identity.version = read_text(entry.version, 64, "the plugin's version");
   if (!is_semver(plugin.identity.version))

@@ -54,7 +54,8 @@ class GarmentCopy {
       const int partner = copy_.features[i].mirror;
       if (partner >= 0 && copy_.features[partner].mirror != static_cast<int>(i))
         throw Broken{"mirror.involution", where_ + ": feature " + in_quotes(copy_.features[i].name) + " mirrors " +
-                                              in_quotes(copy_.features[partner].name) + ", but not the other way round"};
+                                              in_quotes(copy_.features[partner].name) +
+                                              ", but not the other way round"};
     }
   }
 
@@ -80,8 +81,9 @@ class GarmentCopy {
       const TemplateEdge& next = copy_.edges[(i + 1) % copy_.edges.size()];
       if (edge.to != next.from)
         throw Broken{"outline.closed", where_ + ": edge " + in_quotes(edge.name) + " ends at " +
-                                           in_quotes(copy_.features[edge.to].name) + ", but edge " + in_quotes(next.name) +
-                                           " begins at " + in_quotes(copy_.features[next.from].name)};
+                                           in_quotes(copy_.features[edge.to].name) + ", but edge " +
+                                           in_quotes(next.name) + " begins at " +
+                                           in_quotes(copy_.features[next.from].name)};
       const int step = (edge.to - edge.from + count) % count;
       walked += step == 0 ? count : step;
     }

@@ -15,9 +15,10 @@ std::string draw_svg(const NecklineTemplate& n) {
     std::snprintf(line, sizeof line, format, values...);
     out += line;
   };
-  print("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-        "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#23262b\">\n",
-        neck + 2 * left, bottom + 80, neck + 2 * left, bottom + 80);
+  print(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
+      "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#23262b\">\n",
+      neck + 2 * left, bottom + 80, neck + 2 * left, bottom + 80);
   out += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   // Names are small letters, digits and underscores; ids besides have dots: nothing to escape.
   print("<text x=\"%.0f\" y=\"28\" font-size=\"18\">%s</text>\n", left, n.id.c_str());
@@ -30,8 +31,10 @@ std::string draw_svg(const NecklineTemplate& n) {
         bottom, left + neck, bottom);
   for (const Vec2& p : n.profile)
     print("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\"/>\n", left + p.x() * neck, top + p.y() * depth);
-  print("<text x=\"%.0f\" y=\"%.0f\">neck edge, s from 0 to 1; depth 1 is %g of its width where the photo shows none</text>\n",
-        left, bottom + 28, n.default_depth);
+  print(
+      "<text x=\"%.0f\" y=\"%.0f\">neck edge, s from 0 to 1; depth 1 is %g of its width where the photo shows "
+      "none</text>\n",
+      left, bottom + 28, n.default_depth);
   print("<text x=\"%.0f\" y=\"%.0f\">chosen when foreground / background is at least %g and below %g</text>\n", left,
         bottom + 50, n.ratio_min, n.ratio_max);
   return out + "</svg>\n";

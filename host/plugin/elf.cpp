@@ -40,7 +40,8 @@ class Dynamic {
   explicit Dynamic(Bytes file) : file_(file), segments_(segments_of(file)) {
     for (const ElfW(Phdr) & segment : segments_) {
       if (segment.p_type != PT_DYNAMIC) continue;
-      for (std::uint64_t at_byte = 0; within(at_byte, sizeof(ElfW(Dyn)), segment.p_filesz); at_byte += sizeof(ElfW(Dyn))) {
+      for (std::uint64_t at_byte = 0; within(at_byte, sizeof(ElfW(Dyn)), segment.p_filesz);
+           at_byte += sizeof(ElfW(Dyn))) {
         const auto row = at<ElfW(Dyn)>(file_, segment.p_offset + at_byte);
         if (row.d_tag == DT_NULL) break;
         rows_.push_back(row);
@@ -76,7 +77,8 @@ class Dynamic {
     if (const std::uint64_t hash = table(DT_HASH); hash < file_.size())
       return std::min<std::uint64_t>(at<std::uint32_t>(file_, hash + 4), most);
     const std::uint64_t hash = table(DT_GNU_HASH);
-    if (hash >= file_.size()) return std::min<std::uint64_t>((table(DT_STRTAB) - table(DT_SYMTAB)) / sizeof(ElfW(Sym)), most);
+    if (hash >= file_.size())
+      return std::min<std::uint64_t>((table(DT_STRTAB) - table(DT_SYMTAB)) / sizeof(ElfW(Sym)), most);
     const std::uint64_t buckets = at<std::uint32_t>(file_, hash), first = at<std::uint32_t>(file_, hash + 4),
                         words = at<std::uint32_t>(file_, hash + 8);
     const std::uint64_t bucket = hash + 16 + words * sizeof(ElfW(Addr)), chain = bucket + 4 * buckets;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 #define BOOST_DLL_USE_STD_FS
-#include <boost/dll/shared_library.hpp>
-
 #include <link.h>
+
+#include <boost/dll/shared_library.hpp>
 
 #include "vitrine/abi.h"
 #include "vitrine/host/elf.hpp"

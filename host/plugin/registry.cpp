@@ -71,8 +71,8 @@ void PluginRegistry::keep_locked(const PluginSearch& search, std::vector<Candida
                      [&](const Candidate& c) { return c.file.sha256 == row.sha256; }))
       missing += (missing.empty() ? "" : ", ") + row.id + " " + row.version + " (" + row.sha256 + ")";
   std::erase_if(candidates, [&](const Candidate& c) {
-    const bool listed = std::any_of(locked.begin(), locked.end(),
-                                    [&](const LockedPlugin& row) { return row.sha256 == c.file.sha256; });
+    const bool listed =
+        std::any_of(locked.begin(), locked.end(), [&](const LockedPlugin& row) { return row.sha256 == c.file.sha256; });
     if (!listed)
       rejected_.push_back({c.file.path.string(),
                            {Cause::plugin, "PLUGIN_NOT_LOCKED",
@@ -85,12 +85,12 @@ void PluginRegistry::keep_locked(const PluginSearch& search, std::vector<Candida
     return !listed;
   });
   if (!missing.empty())
-    rejected_.push_back({search.lock.string(),
-                         {Cause::plugin, "PLUGIN_LOCK_MISSING",
-                          search.lock.string() + " lists plugins of which no file was found: " + missing,
-                          "Bring the files back, name their folder with --plugin-dir, or write the lock anew",
-                          "plugin"},
-                         true});
+    rejected_.push_back(
+        {search.lock.string(),
+         {Cause::plugin, "PLUGIN_LOCK_MISSING",
+          search.lock.string() + " lists plugins of which no file was found: " + missing,
+          "Bring the files back, name their folder with --plugin-dir, or write the lock anew", "plugin"},
+         true});
 }
 
 PluginRegistry PluginRegistry::load(const PluginSearch& search) {

@@ -60,8 +60,8 @@ bool is_own_group(gid_t group) {
   if (group == 0) return true;
   const passwd* user = ::getpwuid(::geteuid());
   const ::group* entry = ::getgrgid(group);
-  return user != nullptr && entry != nullptr && user->pw_gid == group && std::strcmp(user->pw_name, entry->gr_name) == 0 &&
-         entry->gr_mem[0] == nullptr;
+  return user != nullptr && entry != nullptr && user->pw_gid == group &&
+         std::strcmp(user->pw_name, entry->gr_name) == 0 && entry->gr_mem[0] == nullptr;
 }
 
 /// The folders above: whoever may rename there can put another folder in this one's place.
@@ -71,9 +71,9 @@ std::optional<Error> distrust_folders_above(const fs::path& folder) {
     if (::stat(above.c_str(), &status) != 0) return missing(above, "folder", errno);
     const bool owned = status.st_uid == 0 || status.st_uid == ::geteuid();
     // In a sticky folder only a file's owner may rename it, and the one below is root's or the user's.
-    const bool swappable = (status.st_mode & S_ISVTX) == 0 &&
-                           ((status.st_mode & S_IWOTH) != 0 ||
-                            ((status.st_mode & S_IWGRP) != 0 && !is_own_group(status.st_gid)));
+    const bool swappable =
+        (status.st_mode & S_ISVTX) == 0 &&
+        ((status.st_mode & S_IWOTH) != 0 || ((status.st_mode & S_IWGRP) != 0 && !is_own_group(status.st_gid)));
     if (!owned || swappable)
       return refused("PLUGIN_FILE_TRUST",
                      "plugin folder " + folder.string() + " can be swapped by other users, through " + above.string(),

@@ -29,8 +29,7 @@ MemoryFence::~MemoryFence() {
 }
 
 void expect_readable(const void* at, std::size_t size, const std::string& where) {
-  if (readable_bytes(at, size, where) < size)
-    throw Broken{"memory.inside", where + " runs out of the library's image"};
+  if (readable_bytes(at, size, where) < size) throw Broken{"memory.inside", where + " runs out of the library's image"};
   note(at, size);
 }
 

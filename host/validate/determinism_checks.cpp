@@ -85,9 +85,12 @@ void check_other_process(const Session& session, const Subject& subject, const D
   const ValidateOptions& options = session.options;
   if (options.program.empty()) return session.skip("determinism.process", "the program's own path is not known");
   session.begin("determinism.process");
-  std::vector<std::string> arguments = {options.program, "plugin", "digest", subject.file.path.string(), "--garment",
-                                        item.request.garment.id, "--neckline", item.request.neckline, "--front",
-                                        item.request.front, "--back", item.request.back};
+  std::vector<std::string> arguments = {options.program, "plugin",
+                                        "digest",        subject.file.path.string(),
+                                        "--garment",     item.request.garment.id,
+                                        "--neckline",    item.request.neckline,
+                                        "--front",       item.request.front,
+                                        "--back",        item.request.back};
   if (!options.partners.built_in) arguments.push_back("--alone");
   for (const auto& folder : options.partners.folders)
     arguments.insert(arguments.end(), {"--plugin-dir", folder.string()});
@@ -145,7 +148,8 @@ std::string template_digest(const AdoptedPlugin& plugin) {
       for (const int value : {e.from, e.to, static_cast<int>(e.kind)}) hash.add(value);
     }
     for (const TemplateSeam& s : g.seams)
-      for (const int value : {s.edge_a, s.edge_b, static_cast<int>(s.side_a), static_cast<int>(s.side_b), int{s.reversed}})
+      for (const int value :
+           {s.edge_a, s.edge_b, static_cast<int>(s.side_a), static_cast<int>(s.side_b), int{s.reversed}})
         hash.add(value);
     for (const TemplateLimb& l : g.limbs) {
       hash.add(l.name);
@@ -189,9 +193,10 @@ void check_determinism(const Session& session, const Subject& subject, const Dra
   }
   if (!session.wants(5)) return;
   session.begin("determinism.tables");
-  session.conclude("determinism.tables", bytes_digest(subject.tables) == tables_before
-                                             ? std::vector<std::string>{}
-                                             : std::vector<std::string>{"a table or text has changed since it was read"});
+  session.conclude("determinism.tables",
+                   bytes_digest(subject.tables) == tables_before
+                       ? std::vector<std::string>{}
+                       : std::vector<std::string>{"a table or text has changed since it was read"});
 }
 
 }  // namespace vitrine::validation

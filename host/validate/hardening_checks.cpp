@@ -35,7 +35,8 @@ void check_hardening(const Session& session, const Subject& subject) {
   findings.clear();
   for (const std::string& name : facts.needed)
     if (!is_language_library(name)) findings.push_back("it needs " + name);
-  for (const std::string& name : facts.unanswered) findings.push_back("no library that it needs has the symbol " + name);
+  for (const std::string& name : facts.unanswered)
+    findings.push_back("no library that it needs has the symbol " + name);
   session.conclude("hardening.needs", findings);
 
   findings.clear();
@@ -59,8 +60,9 @@ void check_hardening(const Session& session, const Subject& subject) {
   for (const MemoryRange& range : subject.tables)
     for (const Mapping& map : maps)
       if (map.writable && range.begin < map.end && range.end > map.begin && &map != last) {
-        findings.push_back("a table lies in writable memory; declare tables const, and write out the type of a constexpr "
-                           "std::array (GCC leaves one whose type it deduces writable)");
+        findings.push_back(
+            "a table lies in writable memory; declare tables const, and write out the type of a constexpr "
+            "std::array (GCC leaves one whose type it deduces writable)");
         last = &map;
       }
   session.conclude("hardening.readonly", findings);
@@ -70,11 +72,11 @@ void check_stays(const Session& session, const Subject& subject) {
   session.begin("hardening.stays");
   const auto entry = reinterpret_cast<std::uintptr_t>(subject.library.entry);
   const std::vector<Mapping> maps = mappings();
-  const auto map = std::find_if(maps.begin(), maps.end(),
-                                [&](const Mapping& m) { return entry >= m.begin && entry < m.end; });
+  const auto map =
+      std::find_if(maps.begin(), maps.end(), [&](const Mapping& m) { return entry >= m.begin && entry < m.end; });
   const bool here = map != maps.end() && map->file.ends_with(subject.file.path.filename().string());
-  session.conclude("hardening.stays", here ? std::vector<std::string>{}
-                                           : std::vector<std::string>{"its image is no longer in memory"});
+  session.conclude("hardening.stays",
+                   here ? std::vector<std::string>{} : std::vector<std::string>{"its image is no longer in memory"});
 }
 
 }  // namespace vitrine::validation

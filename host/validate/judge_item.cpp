@@ -67,7 +67,8 @@ void judge_drape(const DrawnItem& item, const Pattern& pattern, const FabricDrap
   findings.gap_mm = std::max(findings.gap_mm, d.seam_gap_mm_max);
   findings.depth_mm = std::max(findings.depth_mm, d.penetration_mm_max);
   if (!(d.residual <= most_residual)) findings.find("pipeline.residual", what + ": " + number(d.residual));
-  if (!(d.seam_gap_mm_max <= most_gap_mm)) findings.find("pipeline.seams", what + ": " + number(d.seam_gap_mm_max) + " mm");
+  if (!(d.seam_gap_mm_max <= most_gap_mm))
+    findings.find("pipeline.seams", what + ": " + number(d.seam_gap_mm_max) + " mm");
   if (!(d.penetration_mm_max <= most_depth_mm))
     findings.find("pipeline.body", what + ": " + number(d.penetration_mm_max) + " mm");
   if (const int count = pieces(pattern, d); count != 1)
@@ -82,7 +83,8 @@ void judge_drape(const DrawnItem& item, const Pattern& pattern, const FabricDrap
     }
   const Vec3 size = high - low;
   if (!finite || size.maxCoeff() < 0.15 || size.maxCoeff() > 2.5 || size.minCoeff() < 0.05)
-    findings.find("pipeline.size", what + ": " + number(size.x()) + " x " + number(size.y()) + " x " + number(size.z()) + " m");
+    findings.find("pipeline.size",
+                  what + ": " + number(size.x()) + " x " + number(size.y()) + " x " + number(size.z()) + " m");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
 #include <sys/resource.h>
+
+#include <cstdio>
 
 #include "process_state.hpp"
 #include "session.hpp"
@@ -13,7 +14,8 @@ constexpr std::uint64_t most_memory = 64u << 20;  // [byte] of address space tha
 constexpr double most_seconds = 1;                // [s] of processor that loading may take
 
 /// What a process with `before` could not be explained by the library's own image.
-void compare(const Session& session, const ProcessState& before, const ProcessState& after, const std::string& printed) {
+void compare(const Session& session, const ProcessState& before, const ProcessState& after,
+             const std::string& printed) {
   const auto judge = [&](std::string_view check, std::initializer_list<std::pair<bool, std::string>> findings) {
     std::vector<std::string> found;
     for (const auto& [broken, what] : findings)
@@ -40,18 +42,16 @@ void compare(const Session& session, const ProcessState& before, const ProcessSt
       opened.push_back("it closed file descriptor " + file);
   session.conclude("hardening.files", opened);
   judge("hardening.output", {{!printed.empty(), "it printed \"" + printed + "\""}});
-  judge("hardening.environment",
-        {{after.environment != before.environment, "it changed the environment variables"},
-         {after.folder != before.folder, "it changed the working folder to " + after.folder},
-         {after.mode_mask != before.mode_mask, "it changed the file mode mask"}});
+  judge("hardening.environment", {{after.environment != before.environment, "it changed the environment variables"},
+                                  {after.folder != before.folder, "it changed the working folder to " + after.folder},
+                                  {after.mode_mask != before.mode_mask, "it changed the file mode mask"}});
   judge("hardening.signals", {{after.handlers != before.handlers, "it set a signal, terminate or new handler"},
                               {after.blocked != before.blocked, "it changed the signal mask"},
                               {after.timer != before.timer, "it set a timer"}});
-  judge("hardening.numbers",
-        {{after.locale != before.locale, "it changed the locale to " + after.locale},
-         {after.rounding != before.rounding, "it changed the rounding mode"},
-         {after.sse_control != before.sse_control || after.x87_control != before.x87_control,
-          "it changed the floating-point control words"}});
+  judge("hardening.numbers", {{after.locale != before.locale, "it changed the locale to " + after.locale},
+                              {after.rounding != before.rounding, "it changed the rounding mode"},
+                              {after.sse_control != before.sse_control || after.x87_control != before.x87_control,
+                               "it changed the floating-point control words"}});
 }
 
 /// Limits that hold while foreign code runs at load: a library that eats memory fails alone.

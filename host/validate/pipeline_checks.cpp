@@ -2,8 +2,8 @@
 // Level 4: the real rooms, on photos that are drawn from the template.
 //
 // What is combined: the first pose with every neckline and every fabric; every other pose with one neckline, in turn,
-// and the default fabric. Poses change the photo, necklines the outline, fabrics the drape; a fault of one of them shows
-// without all of the others.
+// and the default fabric. Poses change the photo, necklines the outline, fabrics the drape; a fault of one of them
+// shows without all of the others.
 #include "pipeline_checks.hpp"
 
 #include <algorithm>
@@ -12,9 +12,8 @@
 namespace vitrine::validation {
 namespace {
 
-constexpr const char* drape_checks[] = {"pipeline.features", "pipeline.panels", "pipeline.drape",
-                                        "pipeline.residual", "pipeline.seams",  "pipeline.body",
-                                        "pipeline.pieces",   "pipeline.size"};
+constexpr const char* drape_checks[] = {"pipeline.features", "pipeline.panels", "pipeline.drape",  "pipeline.residual",
+                                        "pipeline.seams",    "pipeline.body",   "pipeline.pieces", "pipeline.size"};
 
 /// Garments and necklines that the plugin meets: its own first, then those of the partners that do not bear its ids.
 struct Wardrobe {
@@ -76,13 +75,14 @@ class PipelineChecks {
 
   /// Whether a whole conversion is worth while.
   bool sound() const {
-    return std::all_of(findings_.broken.begin(), findings_.broken.end(), [](const auto& b) { return b.second.empty(); });
+    return std::all_of(findings_.broken.begin(), findings_.broken.end(),
+                       [](const auto& b) { return b.second.empty(); });
   }
 
   void photos() {
     if (session_.options.photos.empty() || plugin_.garments.empty())
-      return session_.skip("pipeline.photos", session_.options.photos.empty() ? "no --photo was given"
-                                                                             : "it brings no garment");
+      return session_.skip("pipeline.photos",
+                           session_.options.photos.empty() ? "no --photo was given" : "it brings no garment");
     session_.begin("pipeline.photos");
     std::vector<std::string> findings;
     for (const std::string& photo : session_.options.photos) {
@@ -130,8 +130,9 @@ class PipelineChecks {
                   findings_.residual, findings_.gap_mm, findings_.depth_mm);
     for (const std::string_view check : drape_checks) {
       if (!findings_.done.contains(check) && !findings_.broken.contains(check)) {
-        session_.skip(check, findings_.photos == 0 ? "nothing could be drawn: no garment with a neck edge, or no pose clear of itself"
-                                                   : "nothing came that far");
+        session_.skip(check, findings_.photos == 0
+                                 ? "nothing could be drawn: no garment with a neck edge, or no pose clear of itself"
+                                 : "nothing came that far");
         continue;
       }
       session_.conclude(check, findings_.broken[check],
@@ -140,8 +141,8 @@ class PipelineChecks {
                                   (findings_.lying > 0 ? ", " + std::to_string(findings_.lying) +
                                                              " poses not drawn: a limb lies on the trunk"
                                                        : "")
-                        : check == "pipeline.drape"  ? worst
-                                                     : "");
+                        : check == "pipeline.drape" ? worst
+                                                    : "");
     }
   }
 

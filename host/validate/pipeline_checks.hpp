@@ -15,7 +15,7 @@ struct PipelineFindings {
   std::set<std::string_view> done;  ///< checks that had something to look at
   int photos = 0, drapes = 0;
   double residual = 0, gap_mm = 0, depth_mm = 0;  ///< the worst
-  int lying = 0;      ///< poses that cannot be drawn, because a limb lies on the trunk
+  int lying = 0;                                  ///< poses that cannot be drawn, because a limb lies on the trunk
   std::string folder;  ///< of the drawn photos; left out of messages, which are the same in every run
   void find(std::string_view check, std::string what) {
     for (std::size_t at; (at = what.find(folder + "/")) != std::string::npos;) what.erase(at, folder.size() + 1);

@@ -19,10 +19,10 @@ struct ProcessState {
   std::vector<bool> blocked;             ///< signals
   bool timer = false;                    ///< an interval timer or alarm runs
   int rounding = 0;
-  std::uint32_t sse_control = 0;         ///< without the sticky exception flags
+  std::uint32_t sse_control = 0;  ///< without the sticky exception flags
   std::uint16_t x87_control = 0;
-  std::uint64_t address_space = 0;       ///< [byte]
-  double cpu_seconds = 0;                ///< [s] of this process
+  std::uint64_t address_space = 0;  ///< [byte]
+  double cpu_seconds = 0;           ///< [s] of this process
 
   static ProcessState now();
 };

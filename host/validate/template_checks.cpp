@@ -85,8 +85,7 @@ class GarmentChecks {
     for (const auto& [i, j] : crossing_edges(g_, pose))
       // A sleeve may lie on the body; the outline as it is seen then goes round both.
       if (is_of_limb(g_, i) == is_of_limb(g_, j))
-        find("pose.simple",
-             "edges " + name(g_.edges[i]) + " and " + name(g_.edges[j]) + " cross or touch" + in(pose));
+        find("pose.simple", "edges " + name(g_.edges[i]) + " and " + name(g_.edges[j]) + " cross or touch" + in(pose));
   }
 
   void mirror(const TemplatePose& pose) {
@@ -97,7 +96,8 @@ class GarmentChecks {
       const Vec2 &a0 = g_.poses[0].uv[i], &b0 = g_.poses[0].uv[static_cast<std::size_t>(partner)];
       const std::string pair = name(static_cast<int>(i)) + " and its mirror " + name(partner);
       if (std::abs(a.y() - b.y()) > 0.1)
-        find("pose.mirror", pair + " lie " + number(std::abs(a.y() - b.y())) + " of the box apart in height" + in(pose));
+        find("pose.mirror",
+             pair + " lie " + number(std::abs(a.y() - b.y())) + " of the box apart in height" + in(pose));
       if ((a.x() - b.x()) * (a0.x() - b0.x()) <= 0) find("pose.mirror", pair + " have changed sides" + in(pose));
     }
   }
@@ -109,8 +109,8 @@ class GarmentChecks {
         if (j != i) nearest = std::min(nearest, (pose.uv[i] - pose.uv[j]).norm());
       const double reach = pose.radius[i] * std::sqrt(2.0);  // in box sides: the diagonal of the unit box
       if (reach > 3 * nearest)
-        find("pose.radius", "the search circle of " + name(static_cast<int>(i)) + " reaches " + number(reach / nearest) +
-                                " times as far as the nearest other feature" + in(pose));
+        find("pose.radius", "the search circle of " + name(static_cast<int>(i)) + " reaches " +
+                                number(reach / nearest) + " times as far as the nearest other feature" + in(pose));
     }
   }
 
@@ -167,8 +167,8 @@ class GarmentChecks {
     const double straight = (p - r).norm() + (q - s).norm(), crossed = (p - s).norm() + (q - r).norm();
     const double declared = seam.reversed ? crossed : straight, other = seam.reversed ? straight : crossed;
     if (declared > other + 1e-9)
-      find("seam.direction", "seam of " + name(a) + " and " + name(b) + " is twisted" + in(pose) + ": reversed should be " +
-                                 (seam.reversed ? "0" : "1"));
+      find("seam.direction", "seam of " + name(a) + " and " + name(b) + " is twisted" + in(pose) +
+                                 ": reversed should be " + (seam.reversed ? "0" : "1"));
   }
 
   void partners() {
@@ -235,10 +235,9 @@ class GarmentChecks {
                 {"friction", f.friction, 0.02, 1.5, "-"}};
     for (const auto& row : rows)
       if (row.value < row.least || row.value > row.most)
-        find("fabric.believable", "fabric \"" + f.name + "\": " + row.what + " is " + number(row.value) + " " + row.unit +
-                                      ", clothes have " + number(row.least) + " to " + number(row.most));
-    if (f.shear > f.stretch)
-      find("fabric.believable", "fabric \"" + f.name + "\" is stiffer in shear than in tension");
+        find("fabric.believable", "fabric \"" + f.name + "\": " + row.what + " is " + number(row.value) + " " +
+                                      row.unit + ", clothes have " + number(row.least) + " to " + number(row.most));
+    if (f.shear > f.stretch) find("fabric.believable", "fabric \"" + f.name + "\" is stiffer in shear than in tension");
   }
 
   const GarmentTemplate& g_;
@@ -258,8 +257,7 @@ void check_neckline(const NecklineTemplate& n, Findings& findings) {
     }
     rising = rising || step < 0;
   }
-  if (n.default_depth < 0.02 || n.default_depth > 2)
-    find("its depth is " + number(n.default_depth) + " of its width");
+  if (n.default_depth < 0.02 || n.default_depth > 2) find("its depth is " + number(n.default_depth) + " of its width");
 }
 
 }  // namespace
@@ -290,9 +288,9 @@ void check_templates(const Session& session, const AdoptedPlugin& plugin) {
                                  [](const GarmentTemplate& g) { return !g.limbs.empty(); });
   const bool necks = std::any_of(plugin.garments.begin(), plugin.garments.end(),
                                  [](const GarmentTemplate& g) { return g.neck_edge() >= 0; });
-  for (const char* check : {"pose.simple", "pose.mirror", "pose.radius", "pose.size", "landmark.side",
-                            "landmark.mirror", "seam.length", "seam.direction", "limb.chain", "anchor.top", "neck.edge",
-                            "neckline.form", "fabric.believable"}) {
+  for (const char* check :
+       {"pose.simple", "pose.mirror", "pose.radius", "pose.size", "landmark.side", "landmark.mirror", "seam.length",
+        "seam.direction", "limb.chain", "anchor.top", "neck.edge", "neckline.form", "fabric.believable"}) {
     const std::string_view name = check;
     if (name == "neckline.form" ? plugin.necklines.empty() : plugin.garments.empty())
       session.skip(name, name == "neckline.form" ? "it brings no neckline" : "it brings no garment");

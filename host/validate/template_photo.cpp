@@ -14,7 +14,8 @@ constexpr int long_side = 640;       // [px] of the garment: enough for corners,
 constexpr int margin = 60;           // [px] of board around it
 constexpr double back_depth = 0.14;  // [-] of the neck's width: how low a neckline lies at the back
 
-/// [m] Clothes are cut that much lower than the joint that they go around: armholes below armpits, rises below crotches.
+/// [m] Clothes are cut that much lower than the joint that they go around: armholes below armpits, rises below
+/// crotches.
 constexpr double looser = 0.07;
 
 using Points = std::vector<Vec2>;

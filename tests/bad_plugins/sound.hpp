@@ -107,16 +107,16 @@ constexpr vitrine_plugin with(vitrine_neckline_span changed) {
   }()
 
 /// A sound garment (Skirt, Vest or Sleeves) after one change: `t` in the statements are its tables.
-#define BROKEN_GARMENT(Kind, ...)                                                                      \
-  namespace {                                                                                          \
-  constexpr auto tables = [] {                                                                         \
-    using namespace sound;                                                                             \
-    Kind t;                                                                                            \
-    __VA_ARGS__;                                                                                       \
-    return t;                                                                                          \
-  }();                                                                                                 \
-  constexpr auto broken = std::array<vitrine_garment, 1>{sound::garment_of<tables>()};                 \
-  }                                                                                                    \
+#define BROKEN_GARMENT(Kind, ...)                                                      \
+  namespace {                                                                          \
+  constexpr auto tables = [] {                                                         \
+    using namespace sound;                                                             \
+    Kind t;                                                                            \
+    __VA_ARGS__;                                                                       \
+    return t;                                                                          \
+  }();                                                                                 \
+  constexpr auto broken = std::array<vitrine_garment, 1>{sound::garment_of<tables>()}; \
+  }                                                                                    \
   constinit const vitrine_plugin vitrine_plugin_entry = sound::with(vitrine::sdk::span(broken))
 
 /// A sound neckline whose library does something else besides.

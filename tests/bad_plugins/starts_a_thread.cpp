@@ -6,7 +6,12 @@
 
 AT_LOAD {
   pthread_t thread;
-  pthread_create(&thread, nullptr, [](void*) -> void* { for (;;) pause(); }, nullptr);
+  pthread_create(
+      &thread, nullptr,
+      [](void*) -> void* {
+        for (;;) pause();
+      },
+      nullptr);
 }
 
 SOUND_NECKLINE();

@@ -3,8 +3,7 @@
 
 namespace {
 
-constexpr auto profile =
-    std::array<vitrine_profile_point, 5>{{{0, 0}, {0.25, 1}, {0.5, 0.2}, {0.75, 1}, {1, 0}}};
+constexpr auto profile = std::array<vitrine_profile_point, 5>{{{0, 0}, {0.25, 1}, {0.5, 0.2}, {0.75, 1}, {1, 0}}};
 constexpr auto broken = [] {
   auto all = sound::necklines;
   all[0].profile = vitrine::sdk::span(profile);

@@ -81,9 +81,9 @@ TEST(Lock, is_written_and_kept) {
   ASSERT_NE(at, std::string::npos);
   text[at - 1] = text[at - 1] == '0' ? '1' : '0';
   std::ofstream(lock) << text;
-  const Outcome run = run_vitrine("convert --garment vest --mirror-back --front " + sample +
-                                  "vest-sailor-front.jpg --out " + (lock.parent_path() / "out").string() + " --lock " +
-                                  lock.string());
+  const Outcome run =
+      run_vitrine("convert --garment vest --mirror-back --front " + sample + "vest-sailor-front.jpg --out " +
+                  (lock.parent_path() / "out").string() + " --lock " + lock.string());
   EXPECT_EQ(run.exit_code, 69);
   EXPECT_THAT(run.text, HasSubstr("PLUGIN_LOCK_MISSING"));
   EXPECT_THAT(run.text, HasSubstr("org.vitrine.vest"));

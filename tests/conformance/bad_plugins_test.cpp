@@ -111,18 +111,18 @@ const std::map<std::string, Verdict> verdicts = {
 
 /// Checks that no table of a plugin can break by itself, each with how it is tested instead.
 const std::set<std::string> not_by_a_plugin = {
-    "load.file",          // the file's place and mode: ValidateFiles
-    "load.library",       // a file that is no library: ValidateFiles
-    "pipeline.panels",    // adoption and the feature room refuse what would fail here; kept for the engine's sake
-    "pipeline.residual",  // outcomes of the drape: which garment misses them is the solver's affair
-    "pipeline.seams",     //
-    "pipeline.body",      //
-    "pipeline.pieces",    //
-    "pipeline.size",      //
-    "pipeline.files",     // fails with what comes before it
-    "pipeline.photos",    // photos of the user: tests/cli
-    "determinism.repeat", // a fault of the engine: tests/cli/sample_catalogue_test.cpp converts everything twice
-    "hardening.stays",    // a library that unmaps itself ends in a crash as often as in a report
+    "load.file",           // the file's place and mode: ValidateFiles
+    "load.library",        // a file that is no library: ValidateFiles
+    "pipeline.panels",     // adoption and the feature room refuse what would fail here; kept for the engine's sake
+    "pipeline.residual",   // outcomes of the drape: which garment misses them is the solver's affair
+    "pipeline.seams",      //
+    "pipeline.body",       //
+    "pipeline.pieces",     //
+    "pipeline.size",       //
+    "pipeline.files",      // fails with what comes before it
+    "pipeline.photos",     // photos of the user: tests/cli
+    "determinism.repeat",  // a fault of the engine: tests/cli/sample_catalogue_test.cpp converts everything twice
+    "hardening.stays",     // a library that unmaps itself ends in a crash as often as in a report
 };
 
 const CheckInfo& info_of(std::string_view name) {
@@ -160,8 +160,8 @@ TEST_P(BadPlugins, fails_its_check_and_no_other) {
   const Verdict& verdict = verdicts.at(GetParam());
   const bool sound = *verdict.check == '\0';
   // Up to the level of the check; sound ones up to the last, the garments among them once as a whole product.
-  const FileReport report = report_on(broken / (GetParam() + ".vitrine.so"),
-                                      sound ? max_check_level : info_of(verdict.check).level);
+  const FileReport report =
+      report_on(broken / (GetParam() + ".vitrine.so"), sound ? max_check_level : info_of(verdict.check).level);
   std::vector<std::string> failed, passed;
   for (const CheckResult& check : report.checks) {
     if (check.status == CheckStatus::passed) passed.push_back(check.name);

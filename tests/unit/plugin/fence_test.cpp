@@ -44,7 +44,9 @@ class Image {
       texts({&l.name, &l.root_a, &l.root_b, &l.tip_a, &l.tip_b});
       copy(l.chain, [&](vitrine_name& n) { texts({&n.name}); });
     });
-    copy(garment.scale, [&](vitrine_scale_rule& s) { texts({&s.feature_a, &s.feature_b, &s.girth, &s.top, &s.bottom}); });
+    copy(garment.scale, [&](vitrine_scale_rule& s) {
+      texts({&s.feature_a, &s.feature_b, &s.girth, &s.top, &s.bottom});
+    });
     copy(garment.anchors, [&](vitrine_name& n) { texts({&n.name}); });
     copy(garment.fabrics, [&](vitrine_fabric& f) { texts({&f.name}); });
     vitrine_neckline neckline = templates::neck_u;
@@ -119,7 +121,8 @@ TEST(AdoptProperty, random_bytes_are_refused_by_a_rule_or_taken_whole) {
   int taken = 0;
   for (int i = 0; i < 20'000; ++i) {
     Image image;
-    for (unsigned k = 0; k <= random() % 4; ++k) image.bytes()[random() % image.size()] = static_cast<unsigned char>(random());
+    for (unsigned k = 0; k <= random() % 4; ++k)
+      image.bytes()[random() % image.size()] = static_cast<unsigned char>(random());
     const auto plugin = adopt(image.loaded(), "some.vitrine.so");
     if (!plugin) {
       ++codes[plugin.error().code];

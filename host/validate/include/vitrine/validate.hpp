@@ -40,15 +40,15 @@ struct FileReport {
 };
 
 struct ValidateOptions {
-  int level = 4;              ///< the highest level that is checked
-  std::string only;           ///< name or beginning of a name ("hardening"): report these checks only; empty = all
-  unsigned seed = 0;          ///< of the photos drawn: 0 = as the template says, else corners and colours vary a little
-  double seconds = 120;       ///< [s] the longest that one check may take
-  PluginSearch partners;      ///< necklines for garments and garments for necklines
-  std::vector<std::string> photos;  ///< front photos of the garment itself, to be converted besides the drawn ones
+  int level = 4;          ///< the highest level that is checked
+  std::string only;       ///< name or beginning of a name ("hardening"): report these checks only; empty = all
+  unsigned seed = 0;      ///< of the photos drawn: 0 = as the template says, else corners and colours vary a little
+  double seconds = 120;   ///< [s] the longest that one check may take
+  PluginSearch partners;  ///< necklines for garments and garments for necklines
+  std::vector<std::string> photos;   ///< front photos of the garment itself, to be converted besides the drawn ones
   std::string keep;                  ///< folder in which the drawn photos are kept; empty = they are not
   std::shared_ptr<const Body> body;  ///< needed from level 4 on
-  std::string program;        ///< of this vitrine, for the check in another process; empty = that check is skipped
+  std::string program;  ///< of this vitrine, for the check in another process; empty = that check is skipped
 };
 
 struct Validation {
@@ -71,7 +71,7 @@ std::string validation_json(const Validation& validation, const ValidateOptions&
 /// What another process is asked for: SHA-256 [hex] of the tables as read and of the files of a draft conversion.
 /// `garment` may be empty: the tables only.
 struct DigestRequest {
-  std::string file;     ///< plugin
+  std::string file;  ///< plugin
   PluginSearch partners;
   std::string garment, neckline, front, back;
 };

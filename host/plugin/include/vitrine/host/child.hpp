@@ -33,13 +33,13 @@ class ChildReport {
 };
 
 struct ChildLimits {
-  double silent_seconds = 10;      ///< [s] the longest time between two records
-  std::uint64_t cpu_seconds = 0;   ///< [s] of processor, for a child that loops; 0 = no limit
+  double silent_seconds = 10;     ///< [s] the longest time between two records
+  std::uint64_t cpu_seconds = 0;  ///< [s] of processor, for a child that loops; 0 = no limit
 };
 
-/// Forks, runs `work` in the child, and hands each record to `receive`, in this process. The child sees the memory as it
-/// is now and changes none of it; it dies with this process, and what it started dies with it.
-/// A child process stops accidents, not malice: code in it has the user's rights.
+/// Forks, runs `work` in the child, and hands each record to `receive`, in this process. The child sees the memory as
+/// it is now and changes none of it; it dies with this process, and what it started dies with it. A child process stops
+/// accidents, not malice: code in it has the user's rights.
 ChildEnd run_in_child(const ChildLimits& limits, const std::function<void(const ChildReport&)>& work,
                       const std::function<void(const std::string&)>& receive);
 

@@ -34,7 +34,8 @@ struct RejectedPlugin {
 };
 
 /// Everything that could be adopted. Files are loaded and adopted in a child process first, so that one which crashes,
-/// hangs or ends the process at load is refused like any other. Libraries stay loaded until the process ends; the registry holds copies only.
+/// hangs or ends the process at load is refused like any other. Libraries stay loaded until the process ends; the
+/// registry holds copies only.
 class PluginRegistry {
  public:
   /// Finds, trusts, loads and adopts. One bad file does not keep the others from loading: it is in rejected().

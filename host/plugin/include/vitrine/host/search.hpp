@@ -13,10 +13,10 @@ namespace vitrine {
 /// A plugin file that was opened and trusted. What is hashed, looked at and loaded is the open file, not its path: a
 /// file that is put in its place afterwards changes nothing.
 struct PluginFile {
-  std::filesystem::path path;          ///< symbolic links resolved
-  std::shared_ptr<const int> handle;   ///< file descriptor, closed with the last copy
-  std::vector<std::uint8_t> bytes;     ///< at most max_plugin_bytes
-  std::string sha256;                  ///< [hex] of the bytes
+  std::filesystem::path path;         ///< symbolic links resolved
+  std::shared_ptr<const int> handle;  ///< file descriptor, closed with the last copy
+  std::vector<std::uint8_t> bytes;    ///< at most max_plugin_bytes
+  std::string sha256;                 ///< [hex] of the bytes
 };
 
 /// A plugin holds tables; the largest that ships has a fiftieth of this.
