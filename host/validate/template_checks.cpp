@@ -187,7 +187,7 @@ class GarmentChecks {
   /// Steps from the trunk along an arm or a leg, or -1.
   static int step_along(std::string_view place, bool arm) {
     constexpr std::string_view arms[] = {"neck", "shoulder", "armpit", "biceps", "elbow", "wrist"};
-    constexpr std::string_view legs[] = {"waist", "hip", "crotch", "knee", "ankle"};
+    constexpr std::string_view legs[] = {"waist", "hip", "crotch", "thigh", "knee", "ankle"};
     const std::span<const std::string_view> row = arm ? std::span<const std::string_view>(arms) : legs;
     const auto found = std::find(row.begin(), row.end(), place);
     return found == row.end() ? -1 : static_cast<int>(found - row.begin());
