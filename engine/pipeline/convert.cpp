@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program in one page: the rooms in the order a photo passes them.
+#include <algorithm>
+
 #include "rooms.hpp"
 
 namespace vitrine {
@@ -41,6 +43,24 @@ Conversion cut_and_sew(const ConvertRequest& request) {
   enter_sewing_rooms(rooms);
   rooms.enter("sewing", [&] { return rooms.judge_drape(); });
   return item;
+}
+
+std::vector<FabricDrape> cut_and_sew_fabrics(const ConvertRequest& request, std::size_t most, Conversion& item) {
+  Rooms rooms(request, item);
+  enter_seeing_rooms(rooms);
+  enter_table_rooms(rooms);
+  rooms.enter("fit", [&] { return rooms.place(); });
+  std::vector<FabricDrape> drapes;
+  if (item.error) return drapes;
+  for (std::size_t i = 0; i < std::min(most, request.garment.fabrics.size()); ++i) {
+    item.fabric = request.garment.fabrics[i];
+    rooms.enter("sewing", [&] { return rooms.sew(); });
+    rooms.enter("sewing", [&] { return rooms.judge_drape(); });
+    drapes.push_back({item.fabric.name, std::move(item.drape), item.error});
+    item.drape = {};
+    item.error.reset();
+  }
+  return drapes;
 }
 
 Conversion see_photos(const ConvertRequest& request) {

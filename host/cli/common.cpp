@@ -71,14 +71,21 @@ std::optional<Error> read_measurements(const std::string& path, Measurements& m,
 }  // namespace
 
 void PluginOptions::add_to(CLI::App& app) {
-  app.add_option("--plugin", files, "Plugin file (*.vitrine.so) to load first")->group("Plugins");
-  app.add_option("--plugin-dir", folders, "Folder of plugins to load before the built-in ones")->group("Plugins");
+  app.add_option("--plugin", files, "Plugin file (*.vitrine.so) to load first")
+      ->allow_extra_args(false)  // what follows is the command's own, as a manifest
+      ->group("Plugins");
+  app.add_option("--plugin-dir", folders, "Folder of plugins to load before the built-in ones")
+      ->allow_extra_args(false)
+      ->group("Plugins");
+  app.add_option("--lock", lock, "Load only the files that this plugins.lock lists (vitrine plugin lock writes one)")
+      ->group("Plugins");
 }
 
 PluginSearch PluginOptions::search() const {
   PluginSearch search;
   search.files.assign(files.begin(), files.end());
   search.folders.assign(folders.begin(), folders.end());
+  search.lock = lock;
   return search;
 }
 

@@ -15,6 +15,7 @@ namespace vitrine::cli {
 struct PluginOptions {
   std::vector<std::string> files;
   std::vector<std::string> folders;
+  std::string lock;  ///< plugins.lock; empty = none
   void add_to(CLI::App& app);
   /// Error: a plugin that the user named was refused, or two supply the same id.
   Result<PluginRegistry> load() const;

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "common.hpp"
-#include "vitrine/host/describe.hpp"
+#include "plugin_commands.hpp"
 
 namespace vitrine::cli {
 namespace {
@@ -27,29 +27,6 @@ int list_plugins(const PluginOptions& options) {
   return 0;
 }
 
-int inspect_plugin(const PluginOptions& options, const std::string& id, const std::string& svg) {
-  const auto registry = options.load();
-  if (!registry) return fail(registry.error());
-  if (const GarmentTemplate* garment = registry->find_garment(id)) {
-    if (svg == "-") {
-      std::cout << draw_svg(*garment);
-      return 0;
-    }
-    std::cout << describe(*garment);
-    if (!svg.empty())
-      if (auto e = write_file(svg, draw_svg(*garment))) return fail(*e);
-    return 0;
-  }
-  if (const NecklineTemplate* neckline = registry->find_neckline(id)) {
-    if (!svg.empty())
-      return fail({Cause::usage, "USAGE", id + " is a neckline; --svg draws garments", "leave out --svg", ""});
-    std::cout << describe(*neckline);
-    return 0;
-  }
-  return fail(
-      {Cause::plugin, "UNKNOWN_ID", "no plugin supplies \"" + id + "\"", "vitrine plugin list shows all ids", ""});
-}
-
 }  // namespace
 
 void add_plugin(CLI::App& app, int& exit_code) {
@@ -61,16 +38,8 @@ void add_plugin(CLI::App& app, int& exit_code) {
   options->add_to(*list);
   list->callback([options, &exit_code] { exit_code = list_plugins(*options); });
 
-  struct Inspect {
-    PluginOptions options;
-    std::string id, svg;
-  };
-  auto a = std::make_shared<Inspect>();
-  auto* inspect = command->add_subcommand("inspect", "One garment's or neckline's tables");
-  inspect->add_option("id", a->id, "Id of a garment or neckline")->required();
-  inspect->add_option("--svg", a->svg, "Also draw the template with its seams into this file; - for standard output");
-  a->options.add_to(*inspect);
-  inspect->callback([a, &exit_code] { exit_code = inspect_plugin(a->options, a->id, a->svg); });
+  add_plugin_inspect(*command, exit_code);
+  add_plugin_validate(*command, exit_code);
 }
 
 }  // namespace vitrine::cli

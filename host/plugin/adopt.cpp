@@ -12,7 +12,7 @@ namespace vitrine {
 namespace {
 
 using adoption::Broken;
-using adoption::quoted;
+using adoption::in_quotes;
 using adoption::read_span;
 using adoption::read_text;
 
@@ -23,6 +23,8 @@ constexpr auto rules = std::to_array<AdoptionRule>({
     {"entry.size", "The descriptor is at least as large as in ABI 1.0."},
     {"entry.id", "The plugin's id is a reverse URI and its version a semantic version."},
     {"entry.content", "The plugin brings at least one garment or neckline."},
+    {"memory.inside", "Every table and text lies inside the library's own image, and ends there."},
+    {"memory.aligned", "Tables are aligned as the C compiler aligns them."},
     {"span.count", "Every table has as many elements as it may have."},
     {"span.data", "A table with elements has data."},
     {"span.stride", "A table's stride is at least its element's size."},
@@ -68,7 +70,7 @@ Error error_of(const Broken& broken, const std::string& who, const std::string& 
   error.code = "PLUGIN_";
   for (const char c : broken.rule)
     error.code += c == '.' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  error.message = "plugin " + (who.empty() ? "" : quoted(who) + " ") + "in " + file + " breaks the rule " +
+  error.message = "plugin " + (who.empty() ? "" : in_quotes(who) + " ") + "in " + file + " breaks the rule " +
                   std::string(broken.rule) + ": " + broken.what;
   error.remedy = "Ask the plugin's author to correct its tables, or remove the file";
   error.stage = "plugin";
@@ -147,12 +149,13 @@ bool is_semver(std::string_view version) {
 void read_identity(const vitrine_plugin& entry, AdoptedPlugin& plugin) {
   const std::string id = read_text(entry.id, 128, "the plugin's id");
   if (!is_reverse_uri(id))
-    throw Broken{"entry.id", "the plugin's id is " + quoted(id) + ", not a reverse URI such as \"org.example.poncho\""};
+    throw Broken{"entry.id",
+                 "the plugin's id is " + in_quotes(id) + ", not a reverse URI such as \"org.example.poncho\""};
   plugin.identity.id = id;
   plugin.identity.version = read_text(entry.version, 64, "the plugin's version");
   if (!is_semver(plugin.identity.version))
     throw Broken{"entry.id",
-                 "the plugin's version is " + quoted(plugin.identity.version) + ", not one such as \"1.0.0\""};
+                 "the plugin's version is " + in_quotes(plugin.identity.version) + ", not one such as \"1.0.0\""};
   plugin.identity.vendor = read_text(entry.vendor, 200, "the plugin's vendor");
 }
 
@@ -168,11 +171,19 @@ std::span<const std::string_view> body_girths() {
   return girths;
 }
 
+Result<AdoptedPlugin> adopt(const LoadedPlugin& plugin, const std::string& file, std::vector<MemoryRange>* read) {
+  const adoption::MemoryFence fence(plugin.image, read);
+  return adopt(plugin.entry, file);
+}
+
 Result<AdoptedPlugin> adopt(const void* entry, const std::string& file) {
   AdoptedPlugin plugin;
   plugin.identity.file = file;
   try {
     if (entry == nullptr) throw Broken{"entry.magic", "there is no descriptor"};
+    if (reinterpret_cast<std::uintptr_t>(entry) % alignof(vitrine_plugin) != 0)
+      throw Broken{"memory.aligned", "the descriptor is not aligned"};
+    adoption::expect_readable(entry, sizeof(Head), "the descriptor");
     Head head;
     std::memcpy(&head, entry, sizeof head);
     if (head.magic != VITRINE_MAGIC) throw Broken{"entry.magic", "the descriptor does not begin with the magic number"};
@@ -193,6 +204,7 @@ Result<AdoptedPlugin> adopt(const void* entry, const std::string& file) {
     if (head.size < adoption::size_1_0<vitrine_plugin> || head.size > adoption::max_struct_size)
       throw Broken{"entry.size", "the descriptor says it has " + std::to_string(head.size) +
                                      " bytes, it needs at least " + std::to_string(adoption::size_1_0<vitrine_plugin>)};
+    adoption::expect_readable(entry, head.size, "the descriptor");
     const auto table = adoption::read_struct<vitrine_plugin>(entry, head.size);
     read_identity(table, plugin);
     const auto garments = read_span(table.garments, 0, 64, "the plugin's garments");

@@ -13,7 +13,7 @@ class GarmentCopy {
  public:
   GarmentCopy(const vitrine_garment& table, const PluginIdentity& identity) : table_(table) {
     copy_.id = read_name(table.id, "a garment's id");
-    where_ = "garment " + quoted(copy_.id);
+    where_ = "garment " + in_quotes(copy_.id);
     copy_.title = read_text(table.title, 200, where_ + ": title");
     copy_.plugin = identity.id;
     copy_.version = identity.version;
@@ -35,8 +35,9 @@ class GarmentCopy {
       TemplateFeature feature;
       feature.name = read_name(row.name, where_ + ": a feature's name");
       feature_names_.add(feature.name, where_);
-      const std::string where = where_ + ": feature " + quoted(feature.name);
-      if (row.landmark != nullptr && row.landmark[0] != '\0')
+      const std::string where = where_ + ": feature " + in_quotes(feature.name);
+      if (row.landmark != nullptr && readable_bytes(row.landmark, 1, where + ": landmark") == 1 &&
+          row.landmark[0] != '\0')
         feature.landmark =
             read_known(row.landmark, {body_landmarks().begin(), body_landmarks().end()}, where + ": landmark");
       if (row.turn < VITRINE_TURN_CONCAVE || row.turn > VITRINE_TURN_CONVEX)
@@ -48,12 +49,13 @@ class GarmentCopy {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i].mirror != nullptr)
         copy_.features[i].mirror =
-            feature_names_.find(rows[i].mirror, where_ + ": mirror of feature " + quoted(copy_.features[i].name));
+            feature_names_.find(rows[i].mirror, where_ + ": mirror of feature " + in_quotes(copy_.features[i].name));
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const int partner = copy_.features[i].mirror;
       if (partner >= 0 && copy_.features[partner].mirror != static_cast<int>(i))
-        throw Broken{"mirror.involution", where_ + ": feature " + quoted(copy_.features[i].name) + " mirrors " +
-                                              quoted(copy_.features[partner].name) + ", but not the other way round"};
+        throw Broken{"mirror.involution", where_ + ": feature " + in_quotes(copy_.features[i].name) + " mirrors " +
+                                              in_quotes(copy_.features[partner].name) +
+                                              ", but not the other way round"};
     }
   }
 
@@ -63,7 +65,7 @@ class GarmentCopy {
       TemplateEdge edge;
       edge.name = read_name(row.name, where_ + ": an edge's name");
       edge_names_.add(edge.name, where_);
-      const std::string where = where_ + ": edge " + quoted(edge.name);
+      const std::string where = where_ + ": edge " + in_quotes(edge.name);
       edge.from = feature_names_.find(row.from, where + ": from");
       edge.to = feature_names_.find(row.to, where + ": to");
       edge.kind = static_cast<EdgeKind>(read_choice(row.kind, VITRINE_EDGE_NECK, where + ": kind"));
@@ -78,9 +80,10 @@ class GarmentCopy {
       const TemplateEdge& edge = copy_.edges[i];
       const TemplateEdge& next = copy_.edges[(i + 1) % copy_.edges.size()];
       if (edge.to != next.from)
-        throw Broken{"outline.closed", where_ + ": edge " + quoted(edge.name) + " ends at " +
-                                           quoted(copy_.features[edge.to].name) + ", but edge " + quoted(next.name) +
-                                           " begins at " + quoted(copy_.features[next.from].name)};
+        throw Broken{"outline.closed", where_ + ": edge " + in_quotes(edge.name) + " ends at " +
+                                           in_quotes(copy_.features[edge.to].name) + ", but edge " +
+                                           in_quotes(next.name) + " begins at " +
+                                           in_quotes(copy_.features[next.from].name)};
       const int step = (edge.to - edge.from + count) % count;
       walked += step == 0 ? count : step;
     }
@@ -95,20 +98,20 @@ class GarmentCopy {
       TemplatePose pose;
       pose.name = read_name(row.name, where_ + ": a pose's name");
       names.add(pose.name, where_);
-      const std::string where = where_ + ": pose " + quoted(pose.name);
+      const std::string where = where_ + ": pose " + in_quotes(pose.name);
       pose.uv.resize(copy_.features.size());
       pose.radius.resize(copy_.features.size());
       std::set<int> seen;
       for (const vitrine_pose_point& point : read_span(row.points, 1, 64, where)) {
         const int i = feature_names_.find(point.feature, where);
-        const std::string at = where + ": " + quoted(copy_.features[i].name);
+        const std::string at = where + ": " + in_quotes(copy_.features[i].name);
         if (!seen.insert(i).second) throw Broken{"pose.complete", at + " has two points"};
         pose.uv[i] = {read_number(point.u, 0, 1, at + ": u"), read_number(point.v, 0, 1, at + ": v")};
         pose.radius[i] = read_number(point.radius, 1e-3, 0.5, at + ": radius");
       }
       for (std::size_t i = 0; i < copy_.features.size(); ++i)
         if (!seen.contains(static_cast<int>(i)))
-          throw Broken{"pose.complete", where + " has no point for feature " + quoted(copy_.features[i].name)};
+          throw Broken{"pose.complete", where + " has no point for feature " + in_quotes(copy_.features[i].name)};
       double area = 0;  // [box areas], positive when clockwise in a picture, whose v grows downwards
       for (const TemplateEdge& edge : copy_.edges) {
         const Vec2 &a = pose.uv[edge.from], &b = pose.uv[edge.to];
@@ -134,9 +137,9 @@ class GarmentCopy {
       for (const auto& [side, edge] : {std::pair{seam.side_a, seam.edge_a}, std::pair{seam.side_b, seam.edge_b}}) {
         if (copy_.edges[edge].kind != EdgeKind::seam)
           throw Broken{"seam.kind",
-                       where + " sews edge " + quoted(copy_.edges[edge].name) + ", which is not of kind seam"};
+                       where + " sews edge " + in_quotes(copy_.edges[edge].name) + ", which is not of kind seam"};
         if (++uses[{side, edge}] > 1)
-          throw Broken{"seam.pairs", where + ": edge " + quoted(copy_.edges[edge].name) + " of the " +
+          throw Broken{"seam.pairs", where + ": edge " + in_quotes(copy_.edges[edge].name) + " of the " +
                                          (side == Side::front ? "front" : "back") + " is sewn twice"};
       }
       copy_.seams.push_back(seam);
@@ -144,7 +147,7 @@ class GarmentCopy {
     for (std::size_t e = 0; e < copy_.edges.size(); ++e)
       for (const Side side : {Side::front, Side::back})
         if (copy_.edges[e].kind == EdgeKind::seam && !uses.contains({side, static_cast<int>(e)}))
-          throw Broken{"seam.pairs", where_ + ": edge " + quoted(copy_.edges[e].name) + " of the " +
+          throw Broken{"seam.pairs", where_ + ": edge " + in_quotes(copy_.edges[e].name) + " of the " +
                                          (side == Side::front ? "front" : "back") + " is of kind seam but in no seam"};
   }
 
@@ -154,7 +157,7 @@ class GarmentCopy {
       TemplateLimb limb;
       limb.name = read_name(row.name, where_ + ": a limb's name");
       names.add(limb.name, where_);
-      const std::string where = where_ + ": limb " + quoted(limb.name);
+      const std::string where = where_ + ": limb " + in_quotes(limb.name);
       limb.root_a = feature_names_.find(row.root_a, where + ": root_a");
       limb.root_b = feature_names_.find(row.root_b, where + ": root_b");
       limb.tip_a = feature_names_.find(row.tip_a, where + ": tip_a");
@@ -181,9 +184,9 @@ class GarmentCopy {
     for (const TemplatePose& pose : copy_.poses) {
       if (!((pose.uv[rule.feature_a] - pose.uv[rule.feature_b]).norm() > 0.01))
         throw Broken{"scale.measurable",
-                     where + ": feature_a and feature_b lie in one place in pose " + quoted(pose.name)};
+                     where + ": feature_a and feature_b lie in one place in pose " + in_quotes(pose.name)};
       if (!(pose.uv[rule.bottom].y() - pose.uv[rule.top].y() > 0.01))
-        throw Broken{"scale.measurable", where + ": top does not lie above bottom in pose " + quoted(pose.name)};
+        throw Broken{"scale.measurable", where + ": top does not lie above bottom in pose " + in_quotes(pose.name)};
     }
   }
 
@@ -194,7 +197,7 @@ class GarmentCopy {
       names.add(copy_.features[i].name, where_);
       if (copy_.features[i].landmark.empty())
         throw Broken{"anchor.landmark",
-                     where_ + ": anchor " + quoted(copy_.features[i].name) + " has no body landmark"};
+                     where_ + ": anchor " + in_quotes(copy_.features[i].name) + " has no body landmark"};
       copy_.anchors.push_back(i);
     }
   }
@@ -205,7 +208,7 @@ class GarmentCopy {
       Fabric fabric;
       fabric.name = read_name(row.name, where_ + ": a fabric's name");
       names.add(fabric.name, where_);
-      const std::string where = where_ + ": fabric " + quoted(fabric.name);
+      const std::string where = where_ + ": fabric " + in_quotes(fabric.name);
       fabric.stretch = read_number(row.stretch, 1, 1e7, where + ": stretch");
       fabric.shear = read_number(row.shear, 0, 1e7, where + ": shear");
       fabric.bend = read_number(row.bend, 0, 1, where + ": bend");

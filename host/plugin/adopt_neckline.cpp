@@ -10,7 +10,7 @@ namespace adoption {
 NecklineTemplate copy_neckline(const vitrine_neckline& table, const PluginIdentity& identity) {
   NecklineTemplate copy;
   copy.id = read_name(table.id, "a neckline's id");
-  const std::string where = "neckline " + quoted(copy.id);
+  const std::string where = "neckline " + in_quotes(copy.id);
   copy.title = read_text(table.title, 200, where + ": title");
   copy.plugin = identity.id;
   copy.version = identity.version;

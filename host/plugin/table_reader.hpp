@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "vitrine/abi.h"
+#include "vitrine/host/library.hpp"
 
 namespace vitrine::adoption {
 
@@ -52,6 +54,22 @@ inline constexpr std::size_t size_1_0<vitrine_plugin> = 80;
 /// No struct of any minor version may outgrow this; a larger size or stride is garbage, not a newer plugin.
 inline constexpr std::size_t max_struct_size = 4096;
 
+/// While it lives, everything that is read on this thread has to lie in these ranges; without one, anything is read, as
+/// for tables that a test keeps on its own stack. This is what stands between a wild pointer and the process.
+/// `read`, where given, receives every range that is read.
+class MemoryFence {
+ public:
+  explicit MemoryFence(std::span<const MemoryRange> ranges, std::vector<MemoryRange>* read = nullptr);
+  ~MemoryFence();
+  MemoryFence(const MemoryFence&) = delete;
+  MemoryFence& operator=(const MemoryFence&) = delete;
+};
+
+/// Throws memory.inside unless all of [at, at + size) may be read.
+void expect_readable(const void* at, std::size_t size, const std::string& where);
+/// How many bytes from `at` on may be read, at most `most`; throws memory.inside when none.
+std::size_t readable_bytes(const void* at, std::size_t most, const std::string& where);
+
 /// Copies min(size, sizeof) bytes; fields that the plugin does not have yet read as zero.
 template <class T>
 T read_struct(const void* from, std::size_t size) {
@@ -75,6 +93,9 @@ auto read_span(const Span& span, std::uint32_t least, std::uint32_t most, const 
   if (span.stride < size_1_0<T> || span.stride > max_struct_size || span.stride % alignof(T) != 0)
     throw Broken{"span.stride", where + " has a stride of " + std::to_string(span.stride) +
                                     " bytes; its elements have at least " + std::to_string(size_1_0<T>)};
+  if (reinterpret_cast<std::uintptr_t>(span.data) % alignof(T) != 0)
+    throw Broken{"memory.aligned", where + " does not lie on a multiple of " + std::to_string(alignof(T)) + " bytes"};
+  expect_readable(span.data, std::size_t{span.count} * span.stride, where);
   const auto* bytes = reinterpret_cast<const unsigned char*>(span.data);
   for (std::uint32_t i = 0; i < span.count; ++i)
     copies.push_back(read_struct<T>(bytes + std::size_t{i} * span.stride, span.stride));
@@ -105,6 +126,6 @@ class Names {
   std::map<std::string, int> index_;
 };
 
-std::string quoted(const std::string& text);
+std::string in_quotes(const std::string& text);
 
 }  // namespace vitrine::adoption

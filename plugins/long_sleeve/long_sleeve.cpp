@@ -4,7 +4,7 @@
 
 namespace {
 
-constexpr std::array garments = {vitrine::templates::long_sleeve};
+constexpr auto garments = std::array{vitrine::templates::long_sleeve};
 static_assert(vitrine::sdk::check(garments[0]));
 
 }  // namespace

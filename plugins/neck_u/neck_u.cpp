@@ -4,7 +4,7 @@
 
 namespace {
 
-constexpr std::array necklines = {vitrine::templates::neck_u};
+constexpr auto necklines = std::array{vitrine::templates::neck_u};
 static_assert(vitrine::sdk::check(necklines[0]));
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace {
 
-constexpr std::array garments = {vitrine::templates::skirt};
+constexpr auto garments = std::array{vitrine::templates::skirt};
 static_assert(vitrine::sdk::check(garments[0]));
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace {
 
-constexpr std::array garments = {vitrine::templates::vest};
+constexpr auto garments = std::array{vitrine::templates::vest};
 static_assert(vitrine::sdk::check(garments[0]));
 
 }  // namespace

@@ -17,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path shipped = fs::path(VITRINE_BINARY_DIR) / "lib/vitrine-1/plugins";
-const fs::path broken = fs::path(VITRINE_BINARY_DIR) / "tests/bad_plugins";
-
-PluginRegistry load_one(const fs::path& file) {
-  return PluginRegistry::load({{file}, {}, false});
-}
 
 const PluginRegistry& all() {
   static const PluginRegistry registry = PluginRegistry::load({{}, {shipped}, false});
@@ -142,42 +137,6 @@ TEST(Plugins, ratio_ranges_of_the_necklines_leave_no_gap_and_no_overlap) {
   ASSERT_FALSE(ranges.empty());
   EXPECT_EQ(ranges.front().first, 0);
   for (std::size_t i = 1; i < ranges.size(); ++i) EXPECT_EQ(ranges[i].first, ranges[i - 1].second);
-}
-
-const std::map<std::string, std::string> verdicts = {
-    {"wrong_magic", "PLUGIN_ENTRY_MAGIC"},
-    {"other_major", "PLUGIN_ENTRY_ABI_MAJOR"},
-    {"newer_minor", "PLUGIN_ENTRY_ABI_MINOR"},
-    {"short_entry", "PLUGIN_ENTRY_SIZE"},
-    {"open_outline", "PLUGIN_OUTLINE_CLOSED"},
-    {"missing_edge", "PLUGIN_NAME_KNOWN"},
-    {"not_a_number", "PLUGIN_NUMBER_FINITE"},
-    {"null_span", "PLUGIN_SPAN_DATA"},
-    {"not_utf8", "PLUGIN_TEXT_UTF8"},
-    {"no_entry", "PLUGIN_FILE_ENTRY"},
-    {"unresolved", "PLUGIN_FILE_LOAD"},
-    {"sound", "adopted"},
-    {"sound_c", "adopted"},
-};
-
-TEST(BadPlugins, each_fails_exactly_its_check_and_the_sound_ones_pass) {
-  const auto files = plugin_files(broken);
-  EXPECT_EQ(files.size(), verdicts.size());
-  for (const fs::path& file : files) {
-    const std::string name = file.filename().string().substr(0, file.filename().string().find('.'));
-    ASSERT_TRUE(verdicts.contains(name)) << "no verdict for " << name;
-    const PluginRegistry registry = load_one(file);
-    const std::string verdict = registry.rejected().empty() ? "adopted" : registry.rejected()[0].error.code;
-    EXPECT_EQ(verdict, verdicts.at(name)) << (registry.rejected().empty() ? "" : registry.rejected()[0].error.message);
-    EXPECT_EQ(registry.plugins().size(), verdict == "adopted" ? 1u : 0u);
-  }
-}
-
-TEST(BadPlugins, together_in_a_folder_do_not_hide_the_sound_ones) {
-  const PluginRegistry registry = PluginRegistry::load({{}, {broken}, false});
-  EXPECT_NE(registry.find_garment("skirt"), nullptr);
-  EXPECT_NE(registry.find_neckline("neck_plain_c"), nullptr);
-  EXPECT_EQ(registry.rejected().size(), verdicts.size() - 2);
 }
 
 }  // namespace

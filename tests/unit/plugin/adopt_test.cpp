@@ -251,7 +251,8 @@ std::string code_of(std::string_view rule) {
 // A rule that no test ever breaks may as well not be checked. The rest is broken by the tests of spans, descriptor,
 // neckline.
 TEST(AdoptionRules, are_each_broken_by_some_test) {
-  std::set<std::string> broken = {"PLUGIN_SPAN_DATA", "PLUGIN_SPAN_STRIDE", "PLUGIN_NECKLINE_PROFILE"};
+  std::set<std::string> broken = {"PLUGIN_MEMORY_INSIDE", "PLUGIN_MEMORY_ALIGNED", "PLUGIN_SPAN_DATA",
+                                  "PLUGIN_SPAN_STRIDE", "PLUGIN_NECKLINE_PROFILE"};
   for (const Break& b : breaks) broken.insert(b.code);
   for (const AdoptionRule& rule : adoption_rules())
     if (!rule.name.starts_with("entry.")) {

@@ -161,6 +161,18 @@ Conversion cut_and_mesh(const ConvertRequest& request);
 /// The rooms as far as the cloth at rest: no texture, files or pictures.
 Conversion cut_and_sew(const ConvertRequest& request);
 
+/// What became of one fabric on a pattern that was cut, meshed and placed before.
+struct FabricDrape {
+  std::string fabric;
+  Drape drape;
+  std::optional<Error> error;
+};
+
+/// The rooms as far as the cloth at rest, the ones before the fabric entered once for all of the garment's fabrics, or
+/// for the first `most` of them. `item` is left as cut_and_mesh() leaves it; its error, when a room refused, means that
+/// nothing was sewn.
+std::vector<FabricDrape> cut_and_sew_fabrics(const ConvertRequest& request, std::size_t most, Conversion& item);
+
 /// report.json: status, reason, features in pixels of the photos as given, mesh, drape and texture figures, how the
 /// files stand to the limits of shops ("commerce"), milliseconds per room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
@@ -180,6 +192,9 @@ std::optional<Error> write_conversion(const ConvertRequest& request, const Conve
 /// A picture for people: the photo as given with silhouette outline, inside of the back tinted, feature points by name.
 /// Small photos are enlarged, and a caption is added below. Empty when there is no silhouette to show.
 Image draw_view(const ViewRequest& request, const View& view);
+/// The same with the template that was matched on top (the first pose where none was): its edges, points (crosses) and
+/// search circles in the silhouette's box, for whoever writes one.
+Image draw_template(const ViewRequest& request, const View& view);
 Image draw_mesh(const PanelMesh& mesh, int height = 900);
 
 }  // namespace vitrine

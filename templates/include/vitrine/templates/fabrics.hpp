@@ -19,8 +19,8 @@ inline constexpr vitrine_fabric denim = {"denim", 2000, 500, 1.0e-4, 0.40, 0.50}
 inline constexpr vitrine_fabric satin = {"satin", 800, 110, 6.0e-6, 0.12, 0.22};
 
 /// The first of each list is the default.
-inline constexpr std::array vest_fabrics = {jersey, rib_knit, cotton_woven, satin};
-inline constexpr std::array long_sleeve_fabrics = {jersey, rib_knit, sweatshirt, cotton_woven, satin};
-inline constexpr std::array skirt_fabrics = {cotton_woven, denim, wool_twill, jersey, satin};
+inline constexpr auto vest_fabrics = std::array{jersey, rib_knit, cotton_woven, satin};
+inline constexpr auto long_sleeve_fabrics = std::array{jersey, rib_knit, sweatshirt, cotton_woven, satin};
+inline constexpr auto skirt_fabrics = std::array{cotton_woven, denim, wool_twill, jersey, satin};
 
 }  // namespace vitrine::templates

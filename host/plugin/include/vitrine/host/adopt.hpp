@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vitrine/abi.h"
+#include "vitrine/host/library.hpp"
 #include "vitrine/model/garment_template.hpp"
 #include "vitrine/model/result.hpp"
 
@@ -17,6 +18,7 @@ struct PluginIdentity {
   std::string id;       ///< reverse URI
   std::string version;  ///< semver
   std::string vendor;
+  std::string sha256 = {};  ///< [hex] of the library; empty when there is none
 };
 
 /// Everything that one plugin supplies, copied and checked; keeps no pointer into the plugin.
@@ -43,6 +45,12 @@ std::span<const std::string_view> body_girths();
 /// Errors (69): code "PLUGIN_" + the rule in capitals (PLUGIN_OUTLINE_CLOSED); the message names plugin id, file and
 /// rule.
 Result<AdoptedPlugin> adopt(const void* entry, const std::string& file);
+
+/// The same, and no byte is read outside of the library's own image: whatever its pointers are, they do not bring the
+/// process down.
+/// `read`, where given, receives every range that was read.
+Result<AdoptedPlugin> adopt(const LoadedPlugin& plugin, const std::string& file,
+                            std::vector<MemoryRange>* read = nullptr);
 
 /// One garment or neckline without a descriptor around it, as tests and tools have them. Errors as adopt().
 Result<GarmentTemplate> adopt_garment(const vitrine_garment& table, const PluginIdentity& identity);

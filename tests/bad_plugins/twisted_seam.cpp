@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sound.hpp"
+
+BROKEN_GARMENT(Skirt, t.seams[0].reversed = 1);
