@@ -13,7 +13,7 @@ namespace {
 constexpr double kMiddle = 0.2;        // a gap's middle may lie so far off the box's, share of the width
 constexpr double kLeastGap = 0.012;    // height, share of the diagonal: less is a dent of the hem
 constexpr double kLeastShare = 0.12;   // of the leg that must be seen apart for the rest to be guessed
-constexpr double kBelowBody = 1.2;     // cloth's crotch hangs lower than the body's, times the rise
+constexpr double kBelowBody = 1.1;     // cloth's crotch hangs lower than the body's, times the rise
 constexpr double kTooLow = 1.45;       // times the expected rise: no trousers are made like that
 constexpr double kHighest = 0.7;       // times the expected rise: no gap of legs ends above that
 constexpr double kWaistLevel = 0.05;   // where the waist's width is read, share of the height
