@@ -7,6 +7,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "legs.hpp"
+
 namespace vitrine::features_detail {
 namespace {
 
@@ -208,6 +210,8 @@ bool follows_outline(const GarmentTemplate& garment, const TemplateEdge& edge) {
   if (edge.kind == EdgeKind::neck) return true;
   const auto joins = [&](int a, int b) { return (edge.from == a && edge.to == b) || (edge.from == b && edge.to == a); };
   return std::any_of(garment.limbs.begin(), garment.limbs.end(), [&](const TemplateLimb& limb) {
+    // Sleeves are laid down bent; legs that meet in the middle lie straight, and their sides are plain curves.
+    if (is_leg(garment, limb)) return false;
     return joins(limb.root_a, limb.tip_a) || joins(limb.root_b, limb.tip_b) || joins(limb.root_a, limb.tip_b) ||
            joins(limb.root_b, limb.tip_a);
   });

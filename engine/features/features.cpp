@@ -52,12 +52,15 @@ std::string file_of(const Photo& photo) {
 
 Error not_this_garment(const Photo& photo, const GarmentTemplate& garment, const std::string& why,
                        const std::optional<GarmentFit>& better) {
-  Error error{
-      Cause::unusable, "NOT_THIS_GARMENT", file_of(photo) + " does not look like a " + garment.id + ": " + why + ".",
-      "Choose the garment type that the photo shows, or lay the garment out flat with its sleeves off its body.", ""};
+  Error error{Cause::unusable, "NOT_THIS_GARMENT",
+              file_of(photo) + " does not look like a " + garment.id + ": " + why + ".",
+              "Choose the garment type that the photo shows, or lay the garment out flat, its sleeves off its body and "
+              "its legs "
+              "apart.",
+              ""};
   if (better)
     error.remedy = "Choose the garment type " + better->id + ", which fits best (score " + two_digits(better->score) +
-                   "), or lay the garment out flat with its sleeves off its body.";
+                   "), or lay the garment out flat, its sleeves off its body and its legs apart.";
   return error;
 }
 
@@ -279,12 +282,16 @@ Result<Features> find(const Photo& photo, const Silhouette& silhouette, const Ga
   const double score = fit.score;
   const std::optional<GarmentFit> better =
       score < kSure ? better_garment(piece, garment, score, options) : std::optional<GarmentFit>{};
-  if (match.pose < 0 || match.features.empty())
+  if ((match.pose < 0 || match.features.empty()) && !fit.legs_together)
     return not_this_garment(photo, garment, "no way to lay it out matches the outline", better);
   if (score < kMinScore && fit.hidden_sleeve && !better)
     return Error{Cause::unusable, "SLEEVE_ON_BODY",
                  file_of(photo) + ": a sleeve lies on the body without a gap that shows where it ends.",
                  "Lay the sleeves off the body, so that the ground is seen between them.", ""};
+  if (score < kMinScore && fit.legs_together && !better)
+    return Error{Cause::unusable, "LEGS_TOGETHER",
+                 file_of(photo) + ": no ground is seen between the legs that would show where they part.",
+                 "Lay the legs apart, so that the ground is seen between them.", ""};
   if (better || score < kMinScore) {
     const std::string why = score < kMinScore ? match.evidence.why : better->id + " fits its outline better";
     return not_this_garment(photo, garment, why + " (score " + two_digits(score) + ")", better);
@@ -310,6 +317,10 @@ Result<Features> find(const Photo& photo, const Silhouette& silhouette, const Ga
     if (garment.neck_edge() >= 0 && features.neckline.inside_found && !inside_given) {
       const TemplateEdge& neck = garment.edges[garment.neck_edge()];
       if (static_cast<int>(f) == neck.from || static_cast<int>(f) == neck.to) point.origin = "neckline";
+    }
+    if (static_cast<int>(f) == fit.guessed) {
+      point.origin = "template";
+      point.confidence = std::min(point.confidence, 0.35);
     }
     features.points.push_back(point);
   }

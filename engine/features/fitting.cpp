@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "legs.hpp"
 #include "sleeves.hpp"
 
 namespace vitrine::features_detail {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kHairShare = 0.002;    // threads thinner than twice this share of the diagonal are no outline
 constexpr double kLongestNotch = 0.08;  // of a hanger's clip, share of the diagonal
+constexpr double kGuessed = 0.8;        // score of a crotch that was not seen
 constexpr double kWaist = 0.25;         // clips bite from above, share of the height
 
 /// Clips of a hanger bite notches into a waistband; a garment without sleeves and neckline has no narrow notch of its
@@ -69,8 +71,8 @@ bool free_hidden_sleeves(const GarmentTemplate& garment, const FeatureOptions& o
   std::vector<std::pair<int, int>> closed;  // armpit feature, side
   for (const TemplateLimb& limb : garment.limbs)
     for (const int f : {limb.root_a, limb.root_b})
-      if (f >= 0 && f < static_cast<int>(garment.features.size()) && garment.features[f].turn == Turn::concave &&
-          (match.features.empty() || !match.features[f].snapped))
+      if (!is_leg(garment, limb) && f >= 0 && f < static_cast<int>(garment.features.size()) &&
+          garment.features[f].turn == Turn::concave && (match.features.empty() || !match.features[f].snapped))
         closed.emplace_back(f, garment.poses[0].uv[f].x() < 0.5 ? -1 : 1);
   if (closed.empty()) return false;
   bool notched = false;
@@ -123,9 +125,14 @@ cv::Mat whole_piece(const cv::Mat& mask) {
 Fit fit_garment(const cv::Mat& piece, const GarmentTemplate& garment, const FeatureOptions& options) {
   Fit fit;
   if (cv::countNonZero(piece) < 400) return fit;
-  const SleeveCuts cuts = open_sleeve_gaps(piece, garment, options);
+  fit.mask = piece.clone();
+  if (!has_sleeves(garment) && garment.neck_edge() < 0) close_notches(fit.mask);
+  const int crotch = crotch_of(garment);
+  LegCut legs;
+  if (crotch >= 0) legs = open_legs(fit.mask, garment);
+  fit.legs_together = crotch >= 0 && !legs.gap;
+  const SleeveCuts cuts = open_sleeve_gaps(fit.mask, garment, options);
   fit.mask = cuts.mask;
-  if (garment.limbs.empty() && garment.neck_edge() < 0) close_notches(fit.mask);
   fit.outline = trace_outline(fit.mask, options);
   if (fit.outline.chain.empty()) return fit;
   fit.match = match_template(fit.outline, fit.mask, garment);
@@ -133,6 +140,11 @@ Fit fit_garment(const cv::Mat& piece, const GarmentTemplate& garment, const Feat
   if (fit.match.pose < 0 || fit.match.features.empty()) return fit;
   fit.score = fit.match.score;
   if (garment.limbs.empty()) fit.score *= std::exp(-120 * cuts.gap_share);
+  if (legs.guessed) {
+    fit.score *= kGuessed;
+    fit.guessed = crotch;
+    fit.warnings.push_back("LEGS_TOGETHER");
+  }
   return fit;
 }
 

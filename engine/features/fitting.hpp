@@ -18,6 +18,8 @@ struct Fit {
   Match match;
   double score = 0;            ///< [-] 0..1
   bool hidden_sleeve = false;  ///< the outline has the notch of a cuff on the body
+  bool legs_together = false;  ///< a garment with legs shows no ground between them
+  int guessed = -1;            ///< feature that was put where a body has it, because the photo hides it
   std::vector<std::string> warnings;
 };
 

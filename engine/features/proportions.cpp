@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "evidence.hpp"
+#include "legs.hpp"
 
 namespace vitrine::features_detail {
 namespace {
@@ -19,16 +20,18 @@ struct Share {
 };
 constexpr std::array heights = {Share{"neck", 0.845}, Share{"shoulder", 0.820},   Share{"armpit", 0.760},
                                 Share{"bust", 0.720}, Share{"under_bust", 0.680}, Share{"waist", 0.620},
-                                Share{"hip", 0.510},  Share{"crotch", 0.460},     Share{"knee", 0.276},
-                                Share{"ankle", 0.040}};
-/// Where the next kind of garment begins that hangs lower: a top's hem above the knee, a skirt's above the floor.
+                                Share{"hip", 0.510},  Share{"crotch", 0.460},     Share{"thigh", 0.448},
+                                Share{"knee", 0.276}, Share{"ankle", 0.040}};
+/// Where the next kind of garment begins that hangs lower: a top's hem and that of shorts above the knee, a skirt's
+/// above the floor.
 constexpr std::array borders = {0.820, 0.620, 0.276, 0.0};
 constexpr std::array girths = {Share{"bust", 0.56},  Share{"under_bust", 0.49}, Share{"waist", 0.47},
                                Share{"hip", 0.60},   Share{"neck_base", 0.24},  Share{"biceps", 0.19},
                                Share{"wrist", 0.10}, Share{"thigh", 0.37}};
-/// Along an arm from the acromion.
-constexpr std::array along_arm = {Share{"shoulder", 0.0}, Share{"biceps", 0.09}, Share{"elbow", 0.185},
-                                  Share{"wrist", 0.335}};
+/// Along an arm from the acromion, and along a leg from the top of the thigh.
+constexpr std::array along_limb = {Share{"shoulder", 0.0}, Share{"biceps", 0.09}, Share{"elbow", 0.185},
+                                   Share{"wrist", 0.335},  Share{"thigh", 0.0},   Share{"knee", 0.172},
+                                   Share{"ankle", 0.408}};
 
 template <std::size_t N>
 std::optional<double> share_of(const std::array<Share, N>& list, std::string_view landmark) {
@@ -44,6 +47,16 @@ double falling(double x, double from, double to) {
 }
 
 }  // namespace
+
+double expected_drop(const GarmentTemplate& garment, int top, int bottom, double width) {
+  const auto height = [&](int f) {
+    return f >= 0 && f < static_cast<int>(garment.features.size()) ? share_of(heights, garment.features[f].landmark)
+                                                                   : std::nullopt;
+  };
+  const auto girth = share_of(girths, garment.scale.girth), from = height(top), to = height(bottom);
+  if (!girth || !from || !to || garment.scale.ease <= 0) return 0;
+  return std::max(0.0, *from - *to) * width / (*girth * garment.scale.ease / 2);
+}
 
 double body_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
   const int count = static_cast<int>(at.size());
@@ -70,7 +83,7 @@ double body_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
   for (const TemplateLimb& limb : garment.limbs) {
     if (limb.chain.size() < 2 || !known(limb.root_a) || !known(limb.root_b) || !known(limb.tip_a) || !known(limb.tip_b))
       continue;
-    const auto from = share_of(along_arm, limb.chain.front()), to = share_of(along_arm, limb.chain.back());
+    const auto from = share_of(along_limb, limb.chain.front()), to = share_of(along_limb, limb.chain.back());
     if (!from || !to || *to <= *from) continue;
     const double length = (at[limb.root_a] + at[limb.root_b] - at[limb.tip_a] - at[limb.tip_b]).norm() / 2;
     longest = std::max(longest, unit * length / (*to - *from));

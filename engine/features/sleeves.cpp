@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "legs.hpp"
+
 namespace vitrine::features_detail {
 namespace {
 
@@ -183,7 +185,7 @@ SleeveCuts open_sleeve_gaps(const cv::Mat& mask, const GarmentTemplate& garment,
   std::vector<Hole> holes = find_holes(mask, outline.box, area, outline.diagonal);
   for (const Hole& hole : holes)
     if (hole.side != 0) result.gap_share += cv::countNonZero(hole.mask) / area;
-  if (!garment.limbs.empty()) {
+  if (has_sleeves(garment)) {
     std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.end.y() > b.end.y(); });
     const Hole* below[2] = {nullptr, nullptr};
     for (const Hole& hole : holes) {

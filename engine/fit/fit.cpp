@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "envelope.hpp"
 #include "gaps.hpp"
@@ -78,6 +79,31 @@ class Narrowing {
   std::vector<double> share_[2];
 };
 
+/// How far [m] a panel is lifted onto the body. Feature points to body segments: each anchor, or the mean of an anchor
+/// and its mirror partner, goes to its landmark's height; a little above, so that a shoulder seam closes over the body
+/// and not in it, or below where the outline turns inwards there: a crotch closes under the body. Of several the lowest
+/// counts: trousers with a short rise hang from the crotch and sit below the waist, others hang from the waist.
+Result<double> height_on_body(const GarmentTemplate& garment, const Panel& panel, const Mannequin& mannequin,
+                              double clearance) {
+  std::vector<double> lift(garment.features.size(), std::numeric_limits<double>::infinity());
+  for (const int feature : garment.anchors) {
+    const auto found = mannequin.landmarks.find(garment.features[feature].landmark);
+    if (found == mannequin.landmarks.end())
+      return Error{Cause::unusable, "NO_LANDMARK",
+                   "the mannequin has no landmark \"" + garment.features[feature].landmark + "\"",
+                   "use another mannequin, or correct the feature's landmark in the garment plugin", "fit"};
+    const double off = garment.features[feature].turn == Turn::concave ? -clearance : clearance;
+    lift[feature] = found->second.y() - panel.outline[panel.corner[feature]].y() + off;
+  }
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const int feature : garment.anchors) {
+    const int partner = garment.features[feature].mirror;
+    const bool both = partner >= 0 && std::isfinite(lift[partner]);
+    lowest = std::min(lowest, both ? (lift[feature] + lift[partner]) / 2 : lift[feature]);
+  }
+  return std::isfinite(lowest) ? lowest : clearance;
+}
+
 }  // namespace
 
 Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pattern, const Mannequin& mannequin,
@@ -101,20 +127,9 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
                        " long on a mannequin of " + millimetres(body_height),
                    "check --chest-cm / --length-cm: they are flat measurements in centimetres", "fit"};
 
-    // Feature points to body segments: the anchors' mean height goes to their landmarks', a little above so that the
-    // shoulder seam closes over the body and not in it; sideways the panel stays centred on the body.
-    double lift = 0;
-    int anchors = 0;
-    for (const int feature : garment.anchors) {
-      const auto found = mannequin.landmarks.find(garment.features[feature].landmark);
-      if (found == mannequin.landmarks.end())
-        return Error{Cause::unusable, "NO_LANDMARK",
-                     "the mannequin has no landmark \"" + garment.features[feature].landmark + "\"",
-                     "use another mannequin, or correct the feature's landmark in the garment plugin", "fit"};
-      lift += found->second.y() - panel.outline[panel.corner[feature]].y();
-      ++anchors;
-    }
-    const Vec2 shift(0, (anchors ? lift / anchors : 0) + options.clearance);
+    const Result<double> lift = height_on_body(garment, panel, mannequin, options.clearance);
+    if (!lift) return lift.error();
+    const Vec2 shift(0, *lift);
 
     std::vector<LimbBend> bends;
     for (const TemplateLimb& limb : garment.limbs) {
@@ -141,7 +156,7 @@ Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pa
       Vec3 q(x, placed.y(), sheet(x, placed.y()) + outwards * options.clearance);
       for (const LimbBend& bend : bends) {
         const double weight = bend.weight(placed);
-        if (weight > 0) q += weight * (bend.on_limb(placed, outwards) - q);
+        if (weight > 0) q += weight * (bend.on_limb(placed, outwards, gaps) - q);
       }
       // The sheet clears the body's voxels; what is still too near (a coarse grid's edge) moves on, to its own side.
       for (int i = 0; i < 64 && field.distance(q) < 0.5 * options.clearance; ++i) q.z() += outwards * field.spacing;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "limb.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -64,6 +65,20 @@ bool belongs(const Vec2& p, const std::vector<Vec2>& polygon) {
 }
 
 constexpr int limb_steps = 10;
+constexpr double apart = 0.004;  // [m] of a limb's cloth from the plane between left and right
+
+/// Whether the body ends all around this place on a limb's middle line within twice the limb's radius: further up the
+/// limb runs into the trunk.
+bool is_free(const DistanceField& field, const Vec3& centre, double radius, const Vec3& along) {
+  const Vec3 u = along.unitOrthogonal(), v = along.cross(u);
+  for (int k = 0; k < 16; ++k) {
+    const Vec3 way = std::cos(k * M_PI / 8) * u + std::sin(k * M_PI / 8) * v;
+    bool ends = false;
+    for (double r = radius; r < 2 * radius && !ends; r += 0.002) ends = field.distance(centre + r * way) > 0;
+    if (!ends) return false;
+  }
+  return true;
+}
 
 Vec2 left_of(const Vec2& t) {
   return {-t.y(), t.x()};
@@ -171,7 +186,10 @@ void LimbBend::find_rings(const DistanceField& field, const std::vector<Vec3>& c
     rings_.push_back({centre, std::max(0.0, -field.distance(centre))});
     offset.push_back(centre - start);
   }
-  const int free_from = limb_steps * 2 / 5;
+  // A chain that begins beyond the trunk (a thigh) has nothing to carry on from.
+  int free_from = limb_steps * 2 / 5;
+  for (const int i : {1, 0})
+    if (is_free(field, rings_[i].centre, rings_[i].radius, (chain[1] - chain[0]).normalized())) free_from = i;
   for (int i = 0; i < free_from; ++i) {
     rings_[i].centre += offset[free_from] - offset[i];
     rings_[i].radius = rings_[free_from].radius;
@@ -187,7 +205,7 @@ double LimbBend::weight(const Vec2& placed) const {
   return t * t * (3 - 2 * t);
 }
 
-Vec3 LimbBend::on_limb(const Vec2& placed, double outwards) const {
+Vec3 LimbBend::on_limb(const Vec2& placed, double outwards, const Gaps& gaps) const {
   double s = 0, offset = 0;
   flat_.project(placed, s, offset);
   const double step = std::clamp(s / flat_.length(), 0.0, 1.0) * limb_steps;
@@ -208,7 +226,12 @@ Vec3 LimbBend::on_limb(const Vec2& placed, double outwards) const {
   // Half the tube's girth is the panel's width; a limb too thick for it stretches the tube.
   const double radius = std::max(2 * half / M_PI, 1.15 * thick + clearance_);
   const double angle = std::clamp(offset / half, -1.0, 1.0) * M_PI / 2;
-  const Vec2 xy = middle + radius * std::sin(angle) * left_of(tangent);
+  Vec2 xy = middle + radius * std::sin(angle) * left_of(tangent);
+  // Neither through the other leg's half nor, for a limb that hangs inside the arms, around the arms.
+  const int side = middle.x() < 0 ? -1 : 1;
+  xy.x() = side * std::max(apart, side * xy.x());
+  const double gap = gaps.middle(xy.y(), side);
+  if (side * middle.x() < gap) xy.x() = side * std::min(gap, side * xy.x());
   return {xy.x(), xy.y(), z + outwards * radius * std::cos(angle)};
 }
 

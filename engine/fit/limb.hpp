@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "gaps.hpp"
 #include "vitrine/model/body.hpp"
 #include "vitrine/model/garment_template.hpp"
 #include "vitrine/model/panel.hpp"
@@ -36,7 +37,8 @@ class LimbBend {
   /// How much a placed (shifted) panel point belongs to the limb: 0 on the trunk, rising to 1 behind the root line.
   double weight(const Vec2& placed) const;
   /// Where it goes on the limb's half tube; outwards is +1 for a front panel, -1 for a back panel.
-  Vec3 on_limb(const Vec2& placed, double outwards) const;
+  /// It stays on the limb's own side of x = 0, and inside the arms where the limb hangs between them.
+  Vec3 on_limb(const Vec2& placed, double outwards, const Gaps& gaps) const;
 
  private:
   struct Ring {

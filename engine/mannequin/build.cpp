@@ -63,6 +63,7 @@ Unknowns first_guess(const Measurements& m) {
 
 constexpr double surface_spacing = 0.0205;               ///< [m] triangle edge on the trunk; hands, feet, head: finer
 constexpr double arm_angle = 42 * 0.017453292519943295;  ///< [rad] from the vertical; more where a wide chest needs it
+constexpr double under_crotch = 0.02;                    ///< [m] where the thigh is measured
 
 using Vec8 = Eigen::Matrix<double, 8, 1>;  ///< in the order of `sizes`
 
@@ -219,6 +220,7 @@ void describe(const Figure& f, const BodyPlan& plan, Mannequin& body) {
   set_pair(body, "elbow", f.elbow);
   set_pair(body, "wrist", f.wrist);
   mark["crotch"] = crotch_of(body.mesh, {0, f.hip_height, 0});
+  set_pair(body, "thigh", f.leg_centre(mark["crotch"].y() - under_crotch));
   set_pair(body, "knee", f.leg_centre(f.knee_height));
   set_pair(body, "ankle", f.leg_centre(f.ankle_height));
   const Vec3 top = *std::max_element(body.mesh.vertices.begin(), body.mesh.vertices.end(),
@@ -240,8 +242,7 @@ void measure(const Figure& f, Mannequin& body) {
   const auto& mark = body.landmarks;
   girth["biceps"] = widest_tape(mesh, mark.at("biceps_right"), f.arm_axis);
   girth["wrist"] = widest_tape(mesh, mark.at("wrist_right"), f.arm_axis);
-  const double under_crotch = mark.at("crotch").y() - 0.02;
-  girth["thigh"] = widest_tape(mesh, f.leg_centre(under_crotch), y);
+  girth["thigh"] = widest_tape(mesh, f.leg_centre(mark.at("crotch").y() - under_crotch), y);
   girth["height"] = mark.at("crown").y();
   girth["inside_leg"] = mark.at("crotch").y();
   girth["arm"] = (mark.at("elbow_right") - mark.at("shoulder_right")).norm() +

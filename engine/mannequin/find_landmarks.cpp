@@ -126,6 +126,7 @@ class Finder {
       const auto top = leg(below), knee = leg(0.574 * crotch), ankle = leg(0.040 * h_);
       if (!top || !knee || !ankle) return false;
       thigh += 0.5 * top->tape;
+      mark_["thigh" + name] = top->centre;
       mark_["knee" + name] = knee->centre;
       mark_["ankle" + name] = ankle->centre;
     }

@@ -9,6 +9,7 @@ namespace vitrine::panels_room {
 namespace {
 
 constexpr double kSmallest = 0.05, kLargest = 3.0;  ///< [m] what a garment can measure
+constexpr double kMostShorter = 0.6;                ///< [-] beyond, the width is not this body's
 constexpr double kDisagreement = 0.15;              ///< [-] chest and length may differ by this before we warn
 
 /// Takes picture axes to the garment's: the garment's horizontal axis lies at `tilt_deg` in the picture.
@@ -116,7 +117,14 @@ double anchor_height(const std::vector<Vec2>& upright, const GarmentTemplate& ga
   return garment.anchors.empty() ? top : y / static_cast<double>(garment.anchors.size());
 }
 
-Affine2 pixel_from_panel(const std::vector<Vec2>& upright, double tilt_deg, double metres_per_pixel,
+double shortened(const std::vector<Vec2>& contour, double anchor_y, double metres_per_pixel, double room) {
+  double low = anchor_y;
+  for (const Vec2& p : contour) low = std::max(low, p.y());
+  const double length = (low - anchor_y) * metres_per_pixel;
+  return room > 0 && length > room ? std::max(kMostShorter, room / length) : 1;
+}
+
+Affine2 pixel_from_panel(const std::vector<Vec2>& upright, double tilt_deg, double metres_per_pixel, double shorter,
                          const GarmentTemplate& garment) {
   double x = 0;
   int pairs = 0;
@@ -137,7 +145,7 @@ Affine2 pixel_from_panel(const std::vector<Vec2>& upright, double tilt_deg, doub
   Affine2 affine;
   affine.origin = turn.picture({x, y});
   affine.axis_x = turn.picture({1 / metres_per_pixel, 0});
-  affine.axis_y = turn.picture({0, -1 / metres_per_pixel});  // the picture's y points down
+  affine.axis_y = turn.picture({0, -1 / (metres_per_pixel * shorter)});  // the picture's y points down
   return affine;
 }
 

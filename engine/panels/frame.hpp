@@ -33,8 +33,13 @@ struct FrontScale {
 Result<FrontScale> front_scale(const std::vector<Vec2>& upright, const GarmentTemplate& garment,
                                const PanelOptions& options);
 
-/// Panel metres to photo pixels: tilt, scale, x = 0 at the mean of the mirror pairs, y = 0 at the anchors' mean height.
-Affine2 pixel_from_panel(const std::vector<Vec2>& upright, double tilt_deg, double metres_per_pixel,
+/// How much shorter [-] than in the photo's proportions a garment is made so that what hangs below its anchors fits
+/// into `room` [m]: sizes are graded in width more than in length. 1 where the room is unknown or enough.
+double shortened(const std::vector<Vec2>& contour, double anchor_y, double metres_per_pixel, double room);
+
+/// Panel metres to photo pixels: tilt, scale, lengths times `shorter`, x = 0 at the mean of the mirror pairs, y = 0 at
+/// the anchors' mean height.
+Affine2 pixel_from_panel(const std::vector<Vec2>& upright, double tilt_deg, double metres_per_pixel, double shorter,
                          const GarmentTemplate& garment);
 
 }  // namespace vitrine::panels_room

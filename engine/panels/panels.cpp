@@ -16,6 +16,7 @@ namespace {
 using namespace panels_room;
 
 constexpr double kWarnRatio = 1.2, kLargestRatio = 3.0;  ///< [-] longer / shorter edge of a seam
+constexpr double kTellShorter = 0.97;                    ///< [-] less is not worth a warning
 constexpr double kMostNodes = 100'000;                   ///< [-] on one outline; a photo cannot show more
 
 /// Scale, tilt and contour of one photo, and its template edges as curves.
@@ -78,11 +79,12 @@ Result<bool> check_features(const Features& features, const GarmentTemplate& gar
 }
 
 Result<Photographed> photographed(const Features& features, const std::vector<Vec2>& upright,
-                                  const GarmentTemplate& garment, double metres_per_pixel, double edge_length,
-                                  Side side) {
+                                  const GarmentTemplate& garment, double metres_per_pixel, double shorter,
+                                  double edge_length, Side side) {
   if (!std::isfinite(metres_per_pixel) || metres_per_pixel <= 0 || !std::isfinite(1 / metres_per_pixel))
     return bad_features(side, "its scale is not finite");
-  Photographed photo{features, side, pixel_from_panel(upright, features.tilt_deg, metres_per_pixel, garment), {}};
+  Photographed photo{
+      features, side, pixel_from_panel(upright, features.tilt_deg, metres_per_pixel, shorter, garment), {}};
   auto edges = cut_at_features(features, garment, photo.affine, edge_length, side);
   if (!edges) return edges.error();
   photo.edges = std::move(*edges);
@@ -177,14 +179,23 @@ Result<Panels> make_panels(const Features& front, const Features& back, const Ga
   if (scale->source == "ease")
     panels.metres_per_pixel_front = scale_for_body(scale->metres_per_pixel, upright_contour(front),
                                                    anchor_height(upright_front, garment), options.levels);
+  double shorter = 1;
+  if (scale->source == "ease")
+    shorter = shortened(upright_contour(front), anchor_height(upright_front, garment), panels.metres_per_pixel_front,
+                        options.room);
+  if (shorter < kTellShorter)
+    panels.warnings.push_back("SCALE: the garment is made " +
+                              std::to_string(static_cast<int>(std::lround(100 * (1 - shorter)))) +
+                              " % shorter than the photo shows; as wide as this body needs, it would reach the floor");
   const double width_back = scale_distance(upright_back, garment.scale);
   if (!(width_back >= 4)) return bad_features(Side::back, "those that measure its width lie within four pixels");
   panels.metres_per_pixel_back =
       panels.metres_per_pixel_front * scale_distance(upright_front, garment.scale) / width_back;
 
-  auto photo_front = photographed(front, upright_front, garment, panels.metres_per_pixel_front, h, Side::front);
+  auto photo_front =
+      photographed(front, upright_front, garment, panels.metres_per_pixel_front, shorter, h, Side::front);
   if (!photo_front) return photo_front.error();
-  auto photo_back = photographed(back, upright_back, garment, panels.metres_per_pixel_back, h, Side::back);
+  auto photo_back = photographed(back, upright_back, garment, panels.metres_per_pixel_back, shorter, h, Side::back);
   if (!photo_back) return photo_back.error();
   const std::array<Photographed, 2> photos{std::move(*photo_front), std::move(*photo_back)};
   const auto segments = share_segments(photos, garment, h, panels);

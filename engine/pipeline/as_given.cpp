@@ -31,11 +31,13 @@ NamedPoint neckline_low(Side side, const Features& features) {
 
 /// Lowest point of the open edge on which a garment without a neckline hangs (a skirt's waist), named after its ends.
 std::optional<NamedPoint> opening_low(const GarmentTemplate& garment, const Features& features) {
-  if (garment.neck_edge() >= 0 || garment.anchors.size() != 2) return std::nullopt;
+  if (garment.neck_edge() >= 0) return std::nullopt;
   const std::string left = "_left";
   for (const TemplateEdge& edge : garment.edges) {
-    const bool hangs =
-        std::is_permutation(garment.anchors.begin(), garment.anchors.end(), std::begin({edge.from, edge.to}));
+    const auto anchors = [&](int f) {
+      return std::find(garment.anchors.begin(), garment.anchors.end(), f) != garment.anchors.end();
+    };
+    const bool hangs = anchors(edge.from) && anchors(edge.to);
     if (!hangs || edge.kind != EdgeKind::open || !ends_with(garment.features[edge.from].name, left)) continue;
     const FeaturePoint &from = features.points[edge.from], &to = features.points[edge.to];
     const Vec2 along = to.pixel - from.pixel, down(-along.y(), along.x());

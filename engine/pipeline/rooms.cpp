@@ -7,6 +7,8 @@
 namespace vitrine {
 namespace {
 
+constexpr double above_floor = 0.05;  // [m] of a hem that follows the body's height, not a given length
+
 double polygon_area(const std::vector<Vec2>& p) {
   double twice = 0;
   for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) twice += p[j].x() * p[i].y() - p[i].x() * p[j].y();
@@ -101,6 +103,7 @@ PanelOptions Rooms::panel_options(double edge_length) const {
     hang += landmark->second.y();
     ++anchors;
   }
+  if (anchors > 0) options.room = hang / anchors - above_floor;
   for (const char* level : {"waist", "hip"}) {
     const auto landmark = mannequin.landmarks.find(level);
     const auto girth = mannequin.girths.find(level);
@@ -173,6 +176,12 @@ Rooms::Step Rooms::sew() {
   if (auto e = keep(sew_and_drape(levels_, placed_, item_.fabric, request_.body->field, options), item_.drape))
     return e;
   if (item_.drape.stretch_p99 > 0.35) item_.warnings.push_back("TIGHT_FIT");
+  double lowest = 0;
+  for (const auto& panel : item_.drape.positions)
+    for (const Vec3& p : panel) lowest = std::min(lowest, p.y());
+  if (lowest < -0.005)
+    item_.warnings.push_back("BELOW_FLOOR: the garment hangs " + std::to_string(std::lround(-1000 * lowest)) +
+                             " mm below the mannequin's soles; check --length-cm");
   // Cloth that came close to rest is worth showing; anything worse is marked by the exit code, and still written.
   if (item_.drape.status == "NOT_CONVERGED" && item_.drape.residual <= 1e-2)
     item_.warnings.push_back("RESIDUAL_ABOVE_TARGET");

@@ -51,11 +51,11 @@ constexpr auto rules = std::to_array<AdoptionRule>({
 });
 
 constexpr auto landmarks = std::to_array<std::string_view>(
-    {"neck_left",    "neck_right",   "neck_front",  "neck_back",   "shoulder_left", "shoulder_right",
-     "armpit_left",  "armpit_right", "bust_left",   "bust_right",  "under_bust",    "waist",
-     "waist_left",   "waist_right",  "hip",         "hip_left",    "hip_right",     "biceps_left",
-     "biceps_right", "elbow_left",   "elbow_right", "wrist_left",  "wrist_right",   "crotch",
-     "knee_left",    "knee_right",   "ankle_left",  "ankle_right", "crown"});
+    {"neck_left",    "neck_right",  "neck_front", "neck_back",   "shoulder_left", "shoulder_right", "armpit_left",
+     "armpit_right", "bust_left",   "bust_right", "under_bust",  "waist",         "waist_left",     "waist_right",
+     "hip",          "hip_left",    "hip_right",  "biceps_left", "biceps_right",  "elbow_left",     "elbow_right",
+     "wrist_left",   "wrist_right", "crotch",     "thigh_left",  "thigh_right",   "knee_left",      "knee_right",
+     "ankle_left",   "ankle_right", "crown"});
 
 constexpr auto girths =
     std::to_array<std::string_view>({"bust", "under_bust", "waist", "hip", "neck_base", "biceps", "wrist", "thigh"});

@@ -63,15 +63,15 @@ cv::Mat3f inside_of_back(const PhotoSpec& spec, const Shape& shape, const Canvas
     for (int x = 0; x < canvas.width; ++x)
       if (layers.total(y, x) > 0 && layers.face(y, x) < 1) inside(y, x) = layers.colour(y, x) * 0.52f;
   const cv::Vec3f tape = linear(spec.trim) * 0.58f;
-  const bool skirt = spec.garment == GarmentKind::skirt;
-  const double wide = skirt ? spec.waistband : 1.3;
+  const bool hangs = has_waist(spec.garment);
+  const double wide = hangs ? spec.waistband : 1.3;
   paint_near(shape.top_back, wide + 0.3, canvas, [&](int x, int y, double d, double along, bool) {
     const double on = 1 - smooth_step(wide - 0.05, wide + 0.05, d);
     mix(inside(y, x), tape * static_cast<float>(1 + 0.08 * std::cos(15 * along)), on);
     const double groove = (d - wide) / 0.1;
     inside(y, x) *= static_cast<float>(1 - 0.35 * std::exp(-groove * groove));
   });
-  if (skirt || spec.neck_depth < spec.back_neck_depth + 4.5) return inside;
+  if (hangs || spec.neck_depth < spec.back_neck_depth + 4.5) return inside;
   const Vec2 centre(0, spec.back_neck_depth + 1.7);
   const cv::Vec3f paper = linear({228, 222, 208}), ink = linear({70, 66, 62});
   const double soft = 0.6 / canvas.scale;
@@ -140,7 +140,7 @@ MadePhoto make_photo(const PhotoSpec& spec) {
   add_relief(spec, shape, canvas, layers);
   add_fabric(spec, shape, canvas, layers);
   if (spec.motif) add_motif(spec, canvas, layers);
-  if (spec.garment == GarmentKind::skirt)
+  if (has_waist(spec.garment))
     add_skirt_details(spec, shape, canvas, layers);
   else
     add_top_details(spec, shape, canvas, layers);

@@ -13,7 +13,7 @@
 /// against that truth, and the sample catalogue consists of these pictures, so that the project needs nobody's photos.
 namespace vitrine::support {
 
-enum class GarmentKind { vest, long_sleeve, skirt };
+enum class GarmentKind { vest, long_sleeve, skirt, trousers, shorts };
 enum class NeckKind { u, v, square };
 enum class Fabric2d { plain, heather, stripes, diagonal, dots, floral, denim };
 using Rgb = std::array<double, 3>;  ///< sRGB, 0-255
@@ -44,11 +44,16 @@ struct PhotoSpec {
   double length = 62;      ///< [cm] neck point (or waist) to hem, in the middle
   double hem_curve = 0.8;  ///< [cm] the middle of the hem hangs lower than its ends
 
-  // Outline of skirts.
+  // Outline of skirts and trousers. Of trousers `hem` is the width of one leg's opening.
   double hip = 46;         ///< [cm] flat width
   double hip_depth = 18;   ///< [cm] below the waist
   double waistband = 4;    ///< [cm] height
   double waist_dip = 1.3;  ///< [cm] the front of the waist lies lower than the back
+
+  // Outline of trousers.
+  double rise = 27;      ///< [cm] waist to crotch
+  double leg_angle = 3;  ///< [degree] of the inside leg from the vertical
+  double touch = 0;      ///< [cm] below the crotch on which the legs lie on each other and hide it
 
   // Fabric.
   Fabric2d fabric = Fabric2d::plain;
@@ -90,6 +95,14 @@ PhotoSpec back_of(PhotoSpec front);
 /// A garment, board and camera drawn at random from the range in which a shop's photo is still usable; small (450 px)
 /// so that property tests can make hundreds.
 PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment);
+
+/// Whether the garment hangs from the waist.
+inline bool has_waist(GarmentKind garment) {
+  return garment != GarmentKind::vest && garment != GarmentKind::long_sleeve;
+}
+inline bool has_legs(GarmentKind garment) {
+  return garment == GarmentKind::trousers || garment == GarmentKind::shorts;
+}
 
 /// Smallest sRGB distance between the board and a colour of the garment's border.
 double contrast(const PhotoSpec& spec);

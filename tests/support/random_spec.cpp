@@ -17,7 +17,7 @@ Rgb random_colour(Dice& dice) {
 
 double contrast(const PhotoSpec& spec) {
   double least = distance(spec.board, spec.colour);
-  if (spec.rib > 0 || spec.garment == GarmentKind::skirt) least = std::min(least, distance(spec.board, spec.trim));
+  if (spec.rib > 0 || has_waist(spec.garment)) least = std::min(least, distance(spec.board, spec.trim));
   if (spec.fabric != Fabric2d::plain) least = std::min(least, distance(spec.board, spec.second));
   if (spec.fabric == Fabric2d::floral) least = std::min(least, distance(spec.board, spec.third));
   return least;
@@ -52,6 +52,17 @@ PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment) {
     s.sleeve_width = s.chest * dice.range(0.34, 0.37);
     s.cuff_width = s.chest * dice.range(0.19, 0.21);
     s.hem_rib = dice.pick(2) == 0 ? 0 : dice.range(4, 7);
+  } else if (has_legs(garment)) {
+    const bool shorts = garment == GarmentKind::shorts;
+    s.chest = dice.range(33, 46);
+    s.hip = s.chest * dice.range(1.12, 1.3);
+    s.rise = s.chest * dice.range(0.58, 0.75);
+    s.hip_depth = s.rise * dice.range(0.6, 0.75);
+    const double cut = dice.unit();  // from tapered over straight to wide
+    s.hem = s.hip / 2 * (shorts ? 0.95 + 0.35 * cut : 0.5 + 0.8 * cut);
+    s.length = s.rise + (shorts ? dice.range(5, 28) : s.chest * dice.range(1.35, 2.1));
+    s.leg_angle = shorts ? dice.range(4, 16) : dice.range(1.5, 12);
+    s.waistband = dice.range(2.5, 4.5);
   } else {
     s.chest = dice.range(30, 44);
     s.length = dice.range(36, 75);
@@ -61,9 +72,9 @@ PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment) {
     s.waistband = dice.range(2.5, 4.5);
     s.hem_curve = s.gathers > 0 ? dice.range(2, 5) : dice.range(0.2, 1);
   }
-  s.fabric = static_cast<Fabric2d>(dice.pick(garment == GarmentKind::skirt ? 7 : 6));
+  s.fabric = static_cast<Fabric2d>(dice.pick(has_waist(garment) ? 7 : 6));
   s.pattern = dice.range(1.6, 4);
-  s.motif = garment != GarmentKind::skirt && s.fabric == Fabric2d::plain && dice.pick(2) == 0;
+  s.motif = !has_waist(garment) && s.fabric == Fabric2d::plain && dice.pick(2) == 0;
   s.creases = dice.range(0.4, 1.3);
   s.tilt = dice.range(-3, 3);
   s.falloff = dice.range(0, 0.22);

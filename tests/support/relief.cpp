@@ -128,7 +128,7 @@ void add_relief(const PhotoSpec& spec, const Shape& shape, const Canvas& canvas,
   Dice dice(seed);
   if (spec.creases > 0) {
     const std::vector<Fold> folds =
-        spec.garment == GarmentKind::skirt ? folds_of_skirt(spec, dice) : folds_of_top(spec, shape, dice);
+        has_waist(spec.garment) ? folds_of_skirt(spec, dice) : folds_of_top(spec, shape, dice);
     for (Fold fold : folds) {
       fold.height *= 1.9 * spec.creases;
       draw(fold, canvas, spec, layers);

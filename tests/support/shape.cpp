@@ -62,7 +62,8 @@ Curve half_neck(NeckKind kind, double w, double depth) {
 }
 
 struct Half {
-  Curve top_front, top_back, shoulder, armhole, upper, cuff, under, side, hem;  // from the middle outwards, downwards
+  // From the middle outwards, downwards. Of trousers `hem` is the whole lower edge, `cuff` the leg's opening in it.
+  Curve top_front, top_back, shoulder, armhole, upper, cuff, under, side, hem;
 };
 
 /// A set-in sleeve laid down beside the body: its head swells out from the shoulder, from the armpit on it tapers.
@@ -115,13 +116,48 @@ Half half_top(const PhotoSpec& s, double wide, double turn, double drop) {
   return h;
 }
 
+void add_waist(Half& h, const PhotoSpec& s, const Vec2& waist) {
+  h.top_front =
+      reversed(bezier(waist, {waist.x() * 0.7, s.waist_dip * 0.9}, {waist.x() * 0.4, s.waist_dip}, {0, s.waist_dip}));
+  h.top_back = reversed(bezier(waist, {waist.x() * 0.7, 0.05}, {waist.x() * 0.4, 0.1}, {0, 0.1}));
+}
+
+/// A leg whose inside runs straight from the crotch; its outside from the hip to the opening, which stands square to
+/// the leg's middle line.
+Half half_trousers(const PhotoSpec& s, double wide, double turn, double drop) {
+  Half h;
+  const double a = (s.leg_angle + std::max(-0.5 * s.leg_angle, 0.5 * turn)) * std::numbers::pi / 180;
+  const Vec2 waist(s.chest / 2 * wide, 0), hip(s.hip / 2 * wide, s.hip_depth), crotch(0, s.rise);
+  add_waist(h, s, waist);
+  const double leg = (s.length - s.rise + drop) / std::cos(a);
+  const Vec2 inside(std::sin(a), std::cos(a));
+  // The narrowing is the outside's and the inside's by halves: the middle line turns outwards by half of it.
+  const double taper = std::atan2(0.5 * (hip.x() - s.hem), leg);
+  const Vec2 across(std::cos(a + taper), -std::sin(a + taper));
+  const Vec2 inner = crotch + leg * inside, outer = inner + s.hem * wide * across;
+  const Vec2 below(waist.x() + 0.35, s.waistband);
+  h.side = line(waist, below);
+  const Vec2 on = (outer - hip).normalized();
+  append(h.side, bezier(below, {below.x() + 0.55 * (hip.x() - below.x()), below.y() + 0.3 * (hip.y() - below.y())},
+                        hip - 0.4 * (hip.y() - below.y()) * on, hip));
+  append(h.side, bowed(hip, outer, -0.01 * (outer - hip).norm()));
+  // The seams of the two sides meet in a small bow.
+  const Vec2 low = crotch + Vec2(0, s.touch);
+  const double bow = s.touch > 0 ? 0 : std::min(2.0, 0.2 * (s.length - s.rise));
+  const Vec2 start = low + bow / std::cos(a) * inside;
+  if (bow > 0) h.under = bezier(low, low + Vec2(0.3 * start.x(), 0.1 * bow), start - 0.5 * bow * inside, start);
+  append(h.under, line(start, inner));
+  h.cuff = bowed(inner, outer, 0.15);
+  h.hem = h.under;
+  append(h.hem, h.cuff);
+  return h;
+}
+
 Half half_skirt(const PhotoSpec& s, double wide, double drop) {
   Half h;
   const Vec2 waist(s.chest / 2 * wide, 0), hip(s.hip / 2 * wide, s.hip_depth);
   const Vec2 hem(s.hem / 2 * wide, s.length - s.hem_curve + drop);
-  h.top_front =
-      reversed(bezier(waist, {waist.x() * 0.7, s.waist_dip * 0.9}, {waist.x() * 0.4, s.waist_dip}, {0, s.waist_dip}));
-  h.top_back = reversed(bezier(waist, {waist.x() * 0.7, 0.05}, {waist.x() * 0.4, 0.1}, {0, 0.1}));
+  add_waist(h, s, waist);
   const Vec2 below(waist.x() + 0.35, s.waistband);  // the band itself stands straight
   h.side = line(waist, below);
   if (s.hem > s.hip * 1.2) {
@@ -173,11 +209,13 @@ Shape make_shape(const PhotoSpec& s) {
     turn[i] = s.asymmetry * dice.range(-1.5, 1.5);
     drop[i] = s.asymmetry * dice.range(-0.3, 0.3);
   }
-  const bool skirt = s.garment == GarmentKind::skirt, back = s.side == Side::back;
+  const bool hangs = has_waist(s.garment), legs = has_legs(s.garment), back = s.side == Side::back;
   std::array<Half, 2> half;
   for (int i = 0; i < 2; ++i) {
     const int own = back ? 1 - i : i;
-    half[i] = skirt ? half_skirt(s, wide[own], drop[own]) : half_top(s, wide[own], turn[own], drop[own]);
+    half[i] = legs    ? half_trousers(s, wide[own], turn[own], drop[own])
+              : hangs ? half_skirt(s, wide[own], drop[own])
+                      : half_top(s, wide[own], turn[own], drop[own]);
     const double sign = i == 0 ? -1 : 1;
     for (Curve Half::*part : {&Half::top_front, &Half::top_back, &Half::shoulder, &Half::armhole, &Half::upper,
                               &Half::cuff, &Half::under, &Half::side, &Half::hem}) {
@@ -218,13 +256,20 @@ Shape make_shape(const PhotoSpec& s) {
   shape.top_back = across(&Half::top_back);
   shape.hem = across(&Half::hem);
   const Curve& top = back ? shape.top_back : shape.top_front;
-  shape.landmarks[skirt ? "waist_low" : "neck_low"] =
+  shape.landmarks[hangs ? "waist_low" : "neck_low"] =
       *std::max_element(top.begin(), top.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
   for (int i = 0; i < 2; ++i) {
     const Half& h = half[i];
     const std::string name = i == 0 ? "_left" : "_right";
-    shape.landmarks["hem" + name] = h.side.back();
-    if (skirt) {
+    shape.cuff[i] = h.cuff;
+    if (legs) {
+      shape.landmarks["hem_outer" + name] = h.cuff.back();
+      shape.landmarks["hem_inner" + name] = h.cuff.front();
+      shape.landmarks["crotch"] = warp(Vec2(0, s.rise), s);
+    } else {
+      shape.landmarks["hem" + name] = h.side.back();
+    }
+    if (hangs) {
       shape.landmarks["waist" + name] = h.side.front();
       continue;
     }
@@ -236,7 +281,6 @@ Shape make_shape(const PhotoSpec& s) {
     if (s.garment == GarmentKind::long_sleeve) {
       shape.landmarks["cuff_upper" + name] = h.cuff.front();
       shape.landmarks["cuff_lower" + name] = h.cuff.back();
-      shape.cuff[i] = h.cuff;
       shape.sleeve[i] = h.upper;
       append(shape.sleeve[i], h.cuff);
       append(shape.sleeve[i], h.under);

@@ -99,13 +99,43 @@ struct Tailor {
     add_stitches(straight({{x + h - 0.22, high}, {x + h - 0.22, low}}), 0, 1, 0.3, thread, canvas, layers);
   }
 
+  /// The hem of a skirt, the openings of trousers.
+  void hem_stitches(double inset, int rows, double gap, const cv::Vec3f& thread) {
+    if (!has_legs(spec.garment)) return add_stitches(shape.hem, inset, rows, gap, thread, canvas, layers);
+    for (const Curve& cuff : shape.cuff) add_stitches(cuff, inset, rows, gap, thread, canvas, layers);
+  }
+
+  /// Trousers: the fly, the crotch's seam and, below it, what is seen of the inside legs where they lie on each other.
+  void legs() {
+    const cv::Vec3f thread = linear(spec.trim) * 0.8f;
+    const double dip = spec.side == Side::front ? spec.waist_dip : 0, foot = spec.waistband + dip;
+    add_seam(straight({{0, foot}, {0, spec.rise + spec.touch}}), 0, canvas, layers);
+    const double w = spec.chest / 2;
+    for (const double s : {-1.0, 1.0}) {
+      const Curve pocket = spec.side == Side::front
+                               ? straight({{s * 0.7 * w, foot}, {s * (w + 1.5), foot + 0.55 * spec.rise}})
+                               : straight({{s * 0.3 * w, foot + 6}, {s * 0.8 * w, foot + 6}});
+      add_seam(pocket, 0, canvas, layers);
+      add_stitches(pocket, 0.35, 1, 0.45, thread, canvas, layers);
+    }
+    if (spec.side == Side::front)
+      add_stitches(path({{2.6, foot}, {2.6, foot + 0.3 * spec.rise}, {0.2, foot + 0.5 * spec.rise}}), 0, 1, 0.45,
+                   thread, canvas, layers);
+    waistband(thread);
+    for (const double x : {-0.62, 0.62}) loop(x * w, thread);
+    if (spec.side == Side::front) disc({0.2, dip + 0.5 * spec.waistband}, 0.8, {112, 90, 72}, true);
+    hem_stitches(1.6, 1, 0.42, thread);
+  }
+
   void jeans() {
     const cv::Vec3f thread = linear({206, 150, 84});
+    const double end = has_legs(spec.garment) ? spec.rise + spec.touch : spec.length;  // of the seam in the middle
     const double w = spec.chest / 2, band = spec.waistband, dip = spec.side == Side::front ? spec.waist_dip : 0;
     const double foot = band + dip;  // lower edge of the waistband in the middle
     if (spec.side == Side::front) {
-      add_seam(straight({{0, foot}, {0, spec.length}}), 0, canvas, layers);
-      add_stitches(straight({{-0.35, foot + 14.5}, {-0.35, spec.length - 0.2}}), 0, 1, 0.3, thread, canvas, layers);
+      add_seam(straight({{0, foot}, {0, end}}), 0, canvas, layers);
+      add_stitches(straight({{-0.35, foot + 14.5}, {-0.35, std::max(foot + 14.6, end - 0.2)}}), 0, 1, 0.3, thread,
+                   canvas, layers);
       add_stitches(path({{3.1, foot}, {3.1, foot + 8}, {2.5, foot + 12}, {0.2, foot + 14.5}}), 0, 2, 0.45, thread,
                    canvas, layers);
       for (const double s : {-1.0, 1.0}) {
@@ -132,8 +162,8 @@ struct Tailor {
             path({{x - 5.6, top + 6.2}, {x - 2, top + 5.2}, {x, top + 7}, {x + 2, top + 5.2}, {x + 5.6, top + 6.2}}), 0,
             2, 0.45, thread, canvas, layers);
       }
-      add_seam(straight({{0, band}, {0, spec.length}}), 0, canvas, layers);
-      add_stitches(straight({{0.35, band + 0.5}, {0.35, spec.length - 0.2}}), 0, 1, 0.3, thread, canvas, layers);
+      add_seam(straight({{0, band}, {0, end}}), 0, canvas, layers);
+      add_stitches(straight({{0.35, band + 0.5}, {0.35, end - 0.2}}), 0, 1, 0.3, thread, canvas, layers);
     }
     waistband(thread);
     for (const double x : {-0.62, 0.62}) loop(x * w, thread);
@@ -141,7 +171,7 @@ struct Tailor {
       loop(0, thread);
     else
       disc({0.2, dip + 0.5 * band}, 0.95, {188, 126, 82}, false);
-    add_stitches(shape.hem, 1.2, 2, 0.45, thread, canvas, layers);
+    hem_stitches(1.2, 2, 0.45, thread);
   }
 
   void buttoned() {
@@ -162,7 +192,7 @@ struct Tailor {
     if (spec.side == Side::front)
       for (double y = dip + 0.5 * spec.waistband; y < spec.length - 4; y += 7.2)
         disc({0, y}, 0.75, {112, 66, 52}, true);
-    add_stitches(shape.hem, 1.6, 1, 0.42, thread, canvas, layers);
+    hem_stitches(1.6, 1, 0.42, thread);
   }
 };
 
@@ -172,6 +202,8 @@ void add_skirt_details(const PhotoSpec& spec, const Shape& shape, const Canvas& 
   Tailor tailor{spec, shape, canvas, layers};
   if (spec.fabric == Fabric2d::denim)
     tailor.jeans();
+  else if (has_legs(spec.garment))
+    tailor.legs();
   else
     tailor.buttoned();
 }

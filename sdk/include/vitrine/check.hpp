@@ -20,11 +20,11 @@ namespace vitrine::sdk {
 
 /// Landmarks and girths of the body that a table may refer to (docs/ABI.md).
 inline constexpr const char* body_landmarks[] = {
-    "neck_left",    "neck_right",   "neck_front",  "neck_back",   "shoulder_left", "shoulder_right",
-    "armpit_left",  "armpit_right", "bust_left",   "bust_right",  "under_bust",    "waist",
-    "waist_left",   "waist_right",  "hip",         "hip_left",    "hip_right",     "biceps_left",
-    "biceps_right", "elbow_left",   "elbow_right", "wrist_left",  "wrist_right",   "crotch",
-    "knee_left",    "knee_right",   "ankle_left",  "ankle_right", "crown"};
+    "neck_left",    "neck_right",  "neck_front", "neck_back",   "shoulder_left", "shoulder_right", "armpit_left",
+    "armpit_right", "bust_left",   "bust_right", "under_bust",  "waist",         "waist_left",     "waist_right",
+    "hip",          "hip_left",    "hip_right",  "biceps_left", "biceps_right",  "elbow_left",     "elbow_right",
+    "wrist_left",   "wrist_right", "crotch",     "thigh_left",  "thigh_right",   "knee_left",      "knee_right",
+    "ankle_left",   "ankle_right", "crown"};
 inline constexpr const char* body_girths[] = {"bust",      "under_bust", "waist", "hip",
                                               "neck_base", "biceps",     "wrist", "thigh"};
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// The real photos beside the checkout as items to convert: every front of vest, long sleeve and skirt, with its back
-// where there is one and a mirrored back otherwise.
+// The real photos beside the checkout as items to convert: every front of a garment that is
+// known, with its back where there is one and a mirrored back otherwise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -27,7 +28,8 @@ inline std::vector<RealItem> real_items() {
     std::istringstream row(line);
     std::string file, garment, neckline, view;
     for (auto* field : {&file, &garment, &neckline, &view}) std::getline(row, *field, '\t');
-    if (view != "front" || (garment != "vest" && garment != "longsleeve" && garment != "skirt")) continue;
+    const auto known = {"vest", "longsleeve", "skirt", "trousers", "shorts"};
+    if (view != "front" || std::find(known.begin(), known.end(), garment) == known.end()) continue;
     RealItem item;
     item.name = file.substr(0, file.find("-front"));
     item.garment = garment == "longsleeve" ? "long_sleeve" : garment;

@@ -102,6 +102,26 @@ inline GarmentTemplate long_sleeve() {
   return g;
 }
 
+inline GarmentTemplate trousers() {
+  GarmentTemplate g =
+      garment("trousers",
+              {{"waist_left", "waist_left", 1, Turn::convex},
+               {"waist_right", "waist_right", 0, Turn::convex},
+               {"hem_outer_right", "ankle_right", 6, Turn::convex},
+               {"hem_inner_right", "ankle_right", 5, Turn::convex},
+               {"crotch", "crotch", 4, Turn::concave},
+               {"hem_inner_left", "ankle_left", 3, Turn::convex},
+               {"hem_outer_left", "ankle_left", 2, Turn::convex}},
+              {}, {{0.2, 0.01}, {0.8, 0.01}, {0.98, 0.98}, {0.6, 0.99}, {0.5, 0.32}, {0.4, 0.99}, {0.02, 0.98}}, 0.15);
+  const char* names[] = {"waist", "side_right", "hem_right", "inside_right", "inside_left", "hem_left", "side_left"};
+  const EdgeKind s = EdgeKind::seam, o = EdgeKind::open, kinds[] = {o, s, o, s, s, o, s};
+  for (int i = 0; i < 7; ++i) g.edges.push_back({names[i], i, (i + 1) % 7, kinds[i]});
+  g.limbs = {{"leg_right", 1, 4, 2, 3, {"thigh_right", "knee_right", "ankle_right"}},
+             {"leg_left", 0, 4, 6, 5, {"thigh_left", "knee_left", "ankle_left"}}};
+  g.scale = {0, 1, "waist", 1.0, 0, 6};
+  return g;
+}
+
 inline NecklineTemplate neckline(const std::string& id, double low, double high,
                                  const std::function<double(double)>& depth) {
   NecklineTemplate n;
@@ -150,6 +170,18 @@ inline Drawing draw_skirt() {
   d.outline = {{130, 80}, {270, 80}, {340, 400}, {60, 400}};
   d.corners = {
       {"waist_left", {130, 80}}, {"waist_right", {270, 80}}, {"hem_right", {340, 400}}, {"hem_left", {60, 400}}};
+  return d;
+}
+
+/// Trousers with a rise of 110, whose hems are `gap` apart; `notch`: height where the ground between the legs begins.
+inline Drawing draw_trousers(double gap, double notch = 240) {
+  Drawing d;
+  const Vec2 wl(130, 130), wr(270, 130), hor(300 + gap / 4, 460), hir(200 + gap / 2, 464);
+  const auto m = [](const Vec2& p) { return Vec2(400 - p.x(), p.y()); };
+  d.outline = {wl, wr, hor, hir, {200, notch}, m(hir), m(hor)};
+  d.corners = {{"waist_left", wl},        {"waist_right", wr},      {"hem_outer_right", hor},
+               {"hem_inner_right", hir},  {"crotch", {200, notch}}, {"hem_inner_left", m(hir)},
+               {"hem_outer_left", m(hor)}};
   return d;
 }
 

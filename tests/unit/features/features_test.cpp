@@ -52,6 +52,48 @@ void expect_simple_clockwise_and_ordered(const Features& features) {
   }
 }
 
+TEST(Features, FindTheCornersAndTheCrotchOfTrousers) {
+  for (const double gap : {8.0, 30.0, 80.0}) {
+    const Drawing drawing = draw_trousers(gap);
+    const auto features = features_of(filled(drawing.outline), trousers(), on_the_back());
+    ASSERT_TRUE(features) << gap << ": " << features.error().message;
+    expect_corners(*features, drawing, gap < 20 ? 12 : 7);
+    expect_simple_clockwise_and_ordered(*features);
+    EXPECT_THAT(features->warnings, testing::IsEmpty());
+  }
+}
+
+TEST(Features, PutTheCrotchOfLegsThatLieOnEachOtherWhereABodyHasIt) {
+  const Drawing drawing = draw_trousers(20, 340);  // the notch is far below the crotch
+  const auto features = features_of(filled(drawing.outline), trousers(), on_the_back());
+  ASSERT_TRUE(features) << features.error().message;
+  EXPECT_THAT(features->warnings, testing::Contains("LEGS_TOGETHER"));
+  const FeaturePoint& crotch = point(*features, "crotch");
+  EXPECT_NEAR(crotch.pixel.y(), 20 + 130 + 110, 35);
+  EXPECT_EQ(crotch.origin, "template");
+  EXPECT_LE(crotch.confidence, 0.35);
+  expect_simple_clockwise_and_ordered(*features);
+}
+
+TEST(Features, RefuseLegsThatShowNoGap) {
+  Drawing drawing = draw_trousers(30);
+  drawing.outline.erase(drawing.outline.begin() + 3, drawing.outline.begin() + 6);
+  const auto features = features_of(filled(drawing.outline), trousers(), on_the_back());
+  ASSERT_FALSE(features);
+  EXPECT_EQ(features.error().code, "LEGS_TOGETHER");
+  EXPECT_THAT(features.error().remedy, HasSubstr("apart"));
+}
+
+TEST(Features, PartHemsThatTouchBelowAnOpenGap) {
+  const Drawing drawing = draw_trousers(40);
+  Image labels = filled(drawing.outline);
+  for (int y = 472; y < 484; ++y)
+    for (int x = 40 + 170; x < 40 + 230; ++x) *labels.at(x, y) = label_outside;
+  const auto features = features_of(labels, trousers(), on_the_back());
+  ASSERT_TRUE(features) << features.error().message;
+  EXPECT_LT((point(*features, "crotch").pixel - Vec2(240, 20 + 240)).norm(), 8);
+}
+
 TEST(Features, FindTheCornersOfAVest) {
   const Drawing drawing = draw_vest();
   const auto features = features_of(filled(drawing.outline), vest(), on_the_back());

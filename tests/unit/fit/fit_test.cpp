@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 using namespace vitrine;
 
@@ -219,6 +221,123 @@ TEST(Fit, sides_that_are_sewn_nowhere_hang_over_the_arms) {
   edge("hem", "hem_right", "hem_left", EdgeKind::open);
   std::rotate(cape.garment.edges.begin() + 3, cape.garment.edges.begin() + 4, cape.garment.edges.end());
   EXPECT_LT(width(), 0.45);
+}
+
+/// Trunk and two legs.
+struct Walker {
+  Mannequin mannequin;
+  DistanceField field;
+  Walker() {
+    for (const double y : {0.0, 1.7}) mannequin.mesh.vertices.push_back(Vec3(0, y, 0));
+    const Vec3 thigh(0.10, 0.76, 0), knee(0.11, 0.45, 0), ankle(0.12, 0.08, -0.02);
+    auto& l = mannequin.landmarks;
+    l["waist_right"] = Vec3(0.14, 1.05, 0), l["waist_left"] = Vec3(-0.14, 1.05, 0), l["crotch"] = Vec3(0, 0.79, 0);
+    l["thigh_right"] = thigh, l["knee_right"] = knee, l["ankle_right"] = ankle;
+    for (const char* name : {"thigh", "knee", "ankle"})
+      l[std::string(name) + "_left"] = mirrored(l[std::string(name) + "_right"]);
+    field.spacing = 0.01;
+    field.origin = Vec3(-0.5, -0.1, -0.4);
+    field.size = {101, 161, 81};
+    for (int z = 0; z < field.size[2]; ++z)
+      for (int y = 0; y < field.size[1]; ++y)
+        for (int x = 0; x < field.size[0]; ++x) {
+          const Vec3 p = field.origin + field.spacing * Vec3(x, y, z);
+          double d = capsule(p, Vec3(0, 0.93, 0), Vec3(0, 1.35, 0), 0.14);
+          for (const Vec3& q : {p, mirrored(p)})
+            d = std::min({d, capsule(q, Vec3(0.10, 0.90, 0), knee, 0.08), capsule(q, knee, ankle, 0.045)});
+          field.values.push_back(static_cast<float>(d));
+        }
+  }
+};
+
+/// Trousers of a rise and legs that lie `degrees` apart from the vertical; nodes on the outline only.
+struct Trousers {
+  GarmentTemplate garment;
+  Pattern pattern;
+  std::map<std::string, int> index;
+  Trousers(double rise, double degrees) {
+    const double a = degrees * M_PI / 180;
+    const Vec2 inner = Vec2(0, -rise) + 0.66 * Vec2(std::sin(a), -std::cos(a));
+    const Vec2 outer = inner + 0.20 * Vec2(std::cos(a), std::sin(a));
+    const std::vector<std::pair<std::string, Vec2>> loop{{"waist_left", {-0.20, 0}},
+                                                         {"hem_outer_left", {-outer.x(), outer.y()}},
+                                                         {"hem_inner_left", {-inner.x(), inner.y()}},
+                                                         {"crotch", {0, -rise}},
+                                                         {"hem_inner_right", inner},
+                                                         {"hem_outer_right", outer},
+                                                         {"waist_right", {0.20, 0}}};
+    Panel panel;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const auto& [name, from] = loop[i];
+      const Vec2 to = loop[(i + 1) % loop.size()].second;
+      index[name] = static_cast<int>(i);
+      const bool crotch = name == "crotch";
+      garment.features.push_back(
+          {name, "", static_cast<int>(crotch ? i : loop.size() - 1 - i), crotch ? Turn::concave : Turn::convex});
+      panel.corner.push_back(static_cast<int>(panel.outline.size()));
+      for (int k = 0; k < 20; ++k) panel.outline.push_back(from + (to - from) * k / 20.0);
+    }
+    for (const char* name : {"waist_left", "waist_right", "crotch"}) {
+      garment.features[index[name]].landmark = name;
+      garment.anchors.push_back(index[name]);
+    }
+    for (const std::string side : {"_left", "_right"})
+      garment.limbs.push_back({"leg" + side,
+                               index["waist" + side],
+                               index["crotch"],
+                               index["hem_outer" + side],
+                               index["hem_inner" + side],
+                               {"thigh" + side, "knee" + side, "ankle" + side}});
+    for (const Side side : {Side::front, Side::back}) {
+      panel.side = side;
+      pattern.panels.push_back(panel);
+      pattern.meshes.push_back({panel.outline, {}});
+    }
+  }
+  Vec3 at(const Placement& placed, int panel, const std::string& name) const {
+    return placed[panel][pattern.panels[panel].corner[index.at(name)]];
+  }
+};
+
+TEST(Fit, trouser_legs_of_any_spread_wrap_their_own_leg) {
+  const Walker walker;
+  for (const double degrees : {1.0, 8.0, 20.0}) {
+    const Trousers trousers(0.28, degrees);
+    const auto placed = place_panels(trousers.garment, trousers.pattern, walker.mannequin, walker.field);
+    ASSERT_TRUE(placed);
+    for (int panel = 0; panel < 2; ++panel) {
+      for (std::size_t i = 0; i < (*placed)[panel].size(); ++i) {
+        const Vec3 q = (*placed)[panel][i];
+        const double flat = trousers.pattern.meshes[panel].nodes[i].x();
+        EXPECT_GE(walker.field.distance(q), 0.009) << degrees;
+        EXPECT_TRUE(std::abs(flat) < 1e-6 || q.x() * flat > 0) << "no cloth on the other leg's side, " << degrees;
+      }
+      for (const std::string side : {"_left", "_right"}) {
+        const double leg = std::abs(walker.mannequin.landmarks.at("ankle" + side).x());
+        EXPECT_LT(std::abs(trousers.at(*placed, panel, "hem_inner" + side).x()), leg - 0.04) << degrees;
+        EXPECT_GT(std::abs(trousers.at(*placed, panel, "hem_outer" + side).x()), leg + 0.04) << degrees;
+      }
+    }
+    for (const char* name : {"hem_inner_left", "hem_outer_left", "hem_inner_right", "hem_outer_right"})
+      EXPECT_LT((trousers.at(*placed, 0, name) - trousers.at(*placed, 1, name)).norm(), 0.03)
+          << "the leg's seams start closed at the hem";
+  }
+}
+
+TEST(Fit, trousers_hang_from_the_waist_or_where_the_rise_is_short_from_the_crotch) {
+  const Walker walker;
+  const double waist = walker.mannequin.landmarks.at("waist_left").y(),
+               crotch = walker.mannequin.landmarks.at("crotch").y();
+  for (const double rise : {0.18, 0.22, 0.26, 0.32, 0.40}) {
+    const Trousers trousers(rise, 4);
+    const auto placed = place_panels(trousers.garment, trousers.pattern, walker.mannequin, walker.field);
+    ASSERT_TRUE(placed);
+    const double at_waist = trousers.at(*placed, 0, "waist_left").y(),
+                 at_crotch = trousers.at(*placed, 0, "crotch").y();
+    EXPECT_LE(at_crotch, crotch - 0.019) << rise << ": the crotch closes under the body";
+    EXPECT_LE(at_waist, waist + 0.021) << rise;
+    EXPECT_TRUE(std::abs(at_crotch - crotch + 0.02) < 1e-9 || std::abs(at_waist - waist - 0.02) < 1e-9) << rise;
+  }
 }
 
 TEST(Fit, a_panel_of_another_size_than_any_body_is_refused) {

@@ -116,21 +116,22 @@ TEST_P(BuiltBody, keeps_its_legs_apart_below_the_crotch) {
 
 TEST_P(BuiltBody, has_every_landmark_in_order_of_height) {
   for (const char* name :
-       {"neck_left",    "neck_right",   "neck_front",  "neck_back",   "shoulder_left", "shoulder_right",
-        "armpit_left",  "armpit_right", "bust_left",   "bust_right",  "under_bust",    "waist",
-        "waist_left",   "waist_right",  "hip",         "hip_left",    "hip_right",     "biceps_left",
-        "biceps_right", "elbow_left",   "elbow_right", "wrist_left",  "wrist_right",   "crotch",
-        "knee_left",    "knee_right",   "ankle_left",  "ankle_right", "crown"})
+       {"neck_left",    "neck_right",  "neck_front", "neck_back",   "shoulder_left", "shoulder_right", "armpit_left",
+        "armpit_right", "bust_left",   "bust_right", "under_bust",  "waist",         "waist_left",     "waist_right",
+        "hip",          "hip_left",    "hip_right",  "biceps_left", "biceps_right",  "elbow_left",     "elbow_right",
+        "wrist_left",   "wrist_right", "crotch",     "thigh_left",  "thigh_right",   "knee_left",      "knee_right",
+        "ankle_left",   "ankle_right", "crown"})
     ASSERT_TRUE(body.landmarks.count(name) == 1 && body.landmarks.at(name).allFinite()) << name;
-  const char* order[] = {"ankle_right", "knee_right",   "crotch",         "hip",        "waist", "under_bust",
-                         "bust_right",  "armpit_right", "shoulder_right", "neck_right", "crown"};
+  const char* order[] = {"ankle_right", "knee_right", "thigh_right",  "crotch",         "hip",        "waist",
+                         "under_bust",  "bust_right", "armpit_right", "shoulder_right", "neck_right", "crown"};
   for (std::size_t i = 0; i + 1 < std::size(order); ++i) EXPECT_LT(at(order[i]).y(), at(order[i + 1]).y()) << order[i];
   EXPECT_LT(at("neck_front").y(), at("neck_right").y());
   EXPECT_LT(at("neck_right").y(), at("neck_back").y());
   EXPECT_GT(at("shoulder_right").y(), at("elbow_right").y());
   EXPECT_GT(at("elbow_right").y(), at("wrist_right").y());
   EXPECT_LT(at("neck_right").x() + 0.05, at("shoulder_right").x());
-  for (const char* name : {"neck", "shoulder", "armpit", "bust", "waist", "hip", "elbow", "wrist", "knee", "ankle"}) {
+  for (const char* name :
+       {"neck", "shoulder", "armpit", "bust", "waist", "hip", "elbow", "wrist", "thigh", "knee", "ankle"}) {
     const Vec3 l = at(std::string(name) + "_left"), r = at(std::string(name) + "_right");
     EXPECT_LT(l.x(), 0) << name;
     EXPECT_LT((Vec3(-l.x(), l.y(), l.z()) - r).norm(), 1e-9) << name;
@@ -144,8 +145,8 @@ TEST_P(BuiltBody, has_surface_landmarks_on_the_skin_and_joints_inside) {
                            "bust_left", "under_bust", "waist", "waist_left", "hip", "hip_right", "crown"})
     // The armpit is a tight corner that triangles cut.
     EXPECT_NEAR(field->distance(at(name)), 0, std::string(name) == "armpit_right" ? 0.010 : 0.004) << name;
-  for (const char* name :
-       {"biceps_left", "elbow_left", "elbow_right", "wrist_left", "wrist_right", "knee_left", "ankle_right"})
+  for (const char* name : {"biceps_left", "elbow_left", "elbow_right", "wrist_left", "wrist_right", "thigh_left",
+                           "knee_left", "ankle_right"})
     EXPECT_LT(field->distance(at(name)), -0.012) << name;
 }
 

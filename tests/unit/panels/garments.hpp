@@ -118,6 +118,30 @@ inline Drawn long_sleeve(double slit) {
   return d;
 }
 
+/// A crotch on the middle line, at which both legs' inside seams end; 1.02 m long, 0.27 m of it the rise.
+inline Drawn trousers() {
+  const Vec2 wr(0.20, 1.02), outer(0.27, 0.0), inner(0.05, -0.01), crotch(0, 0.75);
+  const auto m = [](const Vec2& p) { return Vec2(-p.x(), p.y()); };
+  Drawn d = complete({{"waist_left", "waist_right", m(wr), {}},
+                      {"waist_right", "waist_left", wr, bow(wr, outer, {0.28, 0.80})},
+                      {"hem_outer_right", "hem_outer_left", outer, {}},
+                      {"hem_inner_right", "hem_inner_left", inner, {}},
+                      {"crotch", "crotch", crotch, {}},
+                      {"hem_inner_left", "hem_inner_right", m(inner), {}},
+                      {"hem_outer_left", "hem_outer_right", m(outer), bow(m(outer), m(wr), {-0.28, 0.80})}},
+                     {{"waist", EdgeKind::open},
+                      {"side_right", EdgeKind::seam},
+                      {"hem_right", EdgeKind::open},
+                      {"inside_leg_right", EdgeKind::seam},
+                      {"inside_leg_left", EdgeKind::seam},
+                      {"hem_left", EdgeKind::open},
+                      {"side_left", EdgeKind::seam}});
+  d.garment.scale = {index_of(d, "waist_left"), index_of(d, "waist_right"),   "waist", 1.0,
+                     index_of(d, "waist_left"), index_of(d, "hem_outer_left")};
+  d.garment.anchors = {index_of(d, "waist_left"), index_of(d, "waist_right"), index_of(d, "crotch")};
+  return d;
+}
+
 struct Shot {
   double pixels_per_metre = 1200, tilt_deg = 0, width = 1;  ///< width stretches x
   Vec2 centre{640, 900};

@@ -216,6 +216,50 @@ TEST(Panels, chest_wins_over_a_length_that_disagrees_and_warns) {
   EXPECT_EQ(panels->warnings[0].substr(0, 6), "SCALE:");
 }
 
+TEST(Panels, four_edges_meet_at_a_crotch_and_its_node_is_paired_with_itself) {
+  const Drawn d = test::trousers();
+  PanelOptions options;
+  options.chest = 0.40;
+  const auto panels = make_panels(photograph(d), photograph(d), d.garment, options);
+  ASSERT_TRUE(panels) << panels.error().message;
+  const int crotch = panels->front.corner[index_of(d, "crotch")], back = panels->back.corner[index_of(d, "crotch")];
+  int pairs = 0;
+  for (const NodePair& pair : panels->pairs) {
+    EXPECT_EQ(pair.node_a == crotch, pair.node_b == back);
+    pairs += pair.node_a == crotch;
+  }
+  EXPECT_EQ(pairs, 2) << "once for each inside leg";
+  EXPECT_NEAR(panels->front.outline[crotch].x(), 0, 0.002);
+}
+
+TEST(Panels, what_is_sized_by_its_ease_is_no_longer_than_the_body_has_room_for) {
+  const Drawn d = test::trousers();
+  PanelOptions options;
+  options.girths = {{"waist", 1.00}};  // a quarter wider than drawn, so a quarter longer
+  const auto extent = [&](const Panels& p, int axis) {
+    double low = 1e9, high = -1e9;
+    for (const Vec2& q : p.front.outline) low = std::min(low, q[axis]), high = std::max(high, q[axis]);
+    return high - low;
+  };
+  const auto free = make_panels(photograph(d), photograph(d), d.garment, options);
+  options.room = 0.90;
+  const auto bounded = make_panels(photograph(d), photograph(d), d.garment, options);
+  ASSERT_TRUE(free && bounded);
+  double lowest = 0;
+  for (const Vec2& q : bounded->front.outline) lowest = std::min(lowest, q.y());
+  EXPECT_NEAR(lowest, -0.90, 0.01);
+  EXPECT_NEAR(extent(*bounded, 0), extent(*free, 0), 1e-3) << "its width stays";
+  EXPECT_LT(extent(*bounded, 1), 0.95 * extent(*free, 1));
+  EXPECT_TRUE(std::any_of(bounded->warnings.begin(), bounded->warnings.end(),
+                          [](const std::string& w) { return w.starts_with("SCALE") && w.find("floor") != w.npos; }));
+  EXPECT_NEAR(bounded->worst_seam_ratio, 1, 0.01);
+  // A length that was measured is kept, wherever it ends.
+  options.length = 1.2;
+  const auto measured = make_panels(photograph(d), photograph(d), d.garment, options);
+  ASSERT_TRUE(measured);
+  EXPECT_NEAR(extent(*measured, 1), 1.2, 0.02);
+}
+
 TEST(Panels, mirror_pairs_centre_the_panel_and_anchors_lie_at_zero_height) {
   const Drawn d = test::vest();
   const auto panels = make_panels(photograph(d, {.tilt_deg = 3}), photograph(d), d.garment, chest(0.5));

@@ -50,7 +50,10 @@ class Garments : public testing::TestWithParam<const char*> {
  protected:
   scene::Outline outline() const {
     const std::string name = GetParam();
-    return name == "vest" ? scene::vest() : name == "skirt" ? scene::skirt() : scene::long_sleeve();
+    return name == "vest"       ? scene::vest()
+           : name == "skirt"    ? scene::skirt()
+           : name == "trousers" ? scene::trousers()
+                                : scene::long_sleeve();
   }
 };
 
@@ -78,7 +81,24 @@ TEST_P(Garments, come_to_rest_sewn_and_outside_the_body) {
   EXPECT_FALSE(d.skipped.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Garments, testing::Values("vest", "skirt", "long_sleeve"));
+INSTANTIATE_TEST_SUITE_P(Of, Garments, testing::Values("vest", "skirt", "long_sleeve", "trousers"));
+
+TEST(Drape, trousers_are_one_piece_at_the_crotch_with_a_leg_on_either_side) {
+  const Pattern p = scene::make_pattern(scene::trousers(), 0.03);
+  const Drape d = dress(scene::trousers(), {0.05, 0.03});
+  ASSERT_EQ(d.status, "OK") << d.detail;
+  int crotch = 0;
+  for (std::size_t i = 0; i < p.meshes[0].nodes.size(); ++i)
+    if ((p.meshes[0].nodes[i] - Vec2(0, 0.74)).norm() < 1e-9) crotch = static_cast<int>(i);
+  EXPECT_EQ(d.welded[0][crotch], d.welded[1][crotch]) << "front and back share one node there";
+  EXPECT_NEAR(d.positions[0][crotch].x(), 0, 0.02);
+  for (int panel = 0; panel < 2; ++panel)
+    for (std::size_t i = 0; i < p.meshes[panel].nodes.size(); ++i) {
+      const Vec2 flat = p.meshes[panel].nodes[i];
+      // Well below the crotch each leg's cloth stays around its own leg.
+      EXPECT_TRUE(flat.y() > 0.60 || std::abs(flat.x()) < 0.03 || flat.x() * d.positions[panel][i].x() > 0);
+    }
+}
 
 TEST(Drape, nodes_stay_above_nine_tenths_of_the_skin_offset) {
   const Drape d = dress(scene::vest(), {0.04});

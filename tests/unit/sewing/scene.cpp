@@ -213,6 +213,20 @@ Outline skirt(double w) {
   return o;
 }
 
+Outline trousers() {
+  const Vec2 waist(0.19, 1.05), outer(0.19, 0.25), inner(0.04, 0.25), crotch(0, 0.74);
+  auto m = [](const Vec2& p) { return Vec2(-p.x(), p.y()); };
+  Outline o;
+  o.edges = {straight(m(outer), m(inner)),
+             straight(m(inner), crotch, 0),
+             straight(crotch, inner, 1),
+             straight(inner, outer),
+             {outer, {0.23, 0.60}, {0.26, 0.92}, waist, 2},
+             straight(waist, m(waist)),
+             {m(waist), {-0.26, 0.92}, {-0.23, 0.60}, m(outer), 3}};
+  return o;
+}
+
 Pattern make_pattern(const Outline& outline, double h) {
   Panel panel;
   std::vector<std::vector<int>> sewn(outline.edges.size());

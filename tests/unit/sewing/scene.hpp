@@ -26,6 +26,8 @@ struct Outline {
 Outline vest();
 Outline long_sleeve();
 Outline skirt(double waist_half_width = 0.375);
+/// Two legs that meet in a crotch, where four sewn edges come together.
+Outline trousers();
 
 /// Front and back from the same outline, meshed by Delaunay at the edge length; both panels share nodes and numbers.
 Pattern make_pattern(const Outline& outline, double edge_length);

@@ -22,6 +22,8 @@ struct PanelOptions {
   double length = 0;          ///< [m] flat length, top to bottom of the scale rule; 0 = unknown
   std::map<std::string, double> girths;  ///< [m] body girths, for the plugin's ease when both are 0
   std::vector<BodyLevel> levels;  ///< with the ease, the garment is made wide enough for each level that it reaches
+  double room = 0;  ///< [m] below the landmarks that the anchors hang on; with the ease, no garment is made longer. 0 =
+                    ///< unknown
 };
 
 /// Both panels with their outlines resampled, and the seam pairs between them; meshes are still empty.

@@ -14,7 +14,7 @@ struct Mannequin {
   /// Body landmarks (Table I). "left" is the left of the front view, x < 0. Always present: neck_left, neck_right (side
   /// of the neck base), neck_front, neck_back, shoulder_left/right (acromion), armpit_left/right, bust_left/right,
   /// under_bust, waist, waist_left/right, hip, hip_left/right, biceps_left/right, elbow_left/right, wrist_left/right,
-  /// crotch, knee_left/right, ankle_left/right, crown.
+  /// crotch, thigh_left/right (middle of the thigh, 2 cm below the crotch), knee_left/right, ankle_left/right, crown.
   std::map<std::string, Vec3> landmarks;
   /// Girths measured on the mesh [m]: bust, under_bust, waist, hip, neck_base, biceps, wrist, thigh; and height,
   /// inside_leg, arm.
