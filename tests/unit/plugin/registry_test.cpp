@@ -44,16 +44,20 @@ class Registry : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(Registry, finds_the_six_beside_the_program) {
+TEST_F(Registry, finds_those_beside_the_program) {
   EXPECT_EQ(fs::weakly_canonical(built_in_plugin_folder()), fs::weakly_canonical(shipped));
   const auto registry = PluginRegistry::load({});
   for (const auto& rejected : registry.rejected()) ADD_FAILURE() << rejected.error.message;
   std::vector<std::string> garments, necklines;
   for (const auto& g : registry.garments()) garments.push_back(g.id);
   for (const auto& n : registry.necklines()) necklines.push_back(n.id);
-  EXPECT_THAT(garments, testing::ElementsAre("long_sleeve", "skirt", "vest"));
-  EXPECT_THAT(necklines, testing::ElementsAre("neck_square", "neck_u", "neck_v"));
-  EXPECT_EQ(registry.plugins().size(), 6u);
+  EXPECT_THAT(garments, testing::IsSupersetOf({"long_sleeve", "skirt", "vest"}));
+  EXPECT_THAT(necklines, testing::IsSupersetOf({"neck_square", "neck_u", "neck_v"}));
+  EXPECT_TRUE(std::is_sorted(garments.begin(), garments.end()));
+  EXPECT_TRUE(std::is_sorted(necklines.begin(), necklines.end()));
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& file : fs::directory_iterator(shipped)) ++files;
+  EXPECT_EQ(registry.plugins().size(), files);
   EXPECT_FALSE(registry.problem());
   ASSERT_NE(registry.find_garment("vest"), nullptr);
   EXPECT_EQ(registry.find_garment("vest")->plugin, "org.vitrine.vest");
