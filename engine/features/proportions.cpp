@@ -29,9 +29,15 @@ constexpr double kTopSurely = 0.64, kTopHardly = 0.78, kDressHardly = 0.46, kDre
 constexpr double kDressHem = 0.45;  ///< [-] a hem that the template means to lie below this is a dress's
 /// A dress goes around the hips, however much it stretches: its hem's girth in hip girths.
 constexpr double kHemHardly = 0.92, kHemSurely = 1.04;
-/// A sleeve's length in statures: surely none at the first pair, surely a long one and no short one at the second.
-constexpr double kShortHardly = 0.030, kShortSurely = 0.070, kLongHardly = 0.117, kLongSurely = 0.184;
-constexpr double kShortEnds = 0.21, kShortEnded = 0.29, kForearm = 0.25;
+/// Flat width below the armholes for reckoning in statures, whatever ease the plugin sells: half the bust and a
+/// twelfth.
+constexpr double kEase = 1.09;
+/// Length of sleeves in statures. A short sleeve ends above the elbow, a long one below it.
+constexpr double kLongHardly = 0.117, kLongSurely = 0.184, kShortEnds = 0.21, kShortEnded = 0.29;
+/// Sleeves stand off the body: how far their cuffs reach out beyond the line of the side seam, as the mean of both. A
+/// bite in a side makes a notch like an armpit's, but nothing that stands out.
+constexpr double kOffHardly = 0.012, kOffSurely = 0.028;
+constexpr double kForearm = 0.25;  ///< a chain that is longer reaches past the elbow
 constexpr std::array girths = {Share{"bust", 0.56},  Share{"under_bust", 0.49}, Share{"waist", 0.47},
                                Share{"hip", 0.60},   Share{"neck_base", 0.24},  Share{"biceps", 0.19},
                                Share{"wrist", 0.10}, Share{"thigh", 0.37}};
@@ -64,6 +70,35 @@ double drop_reach(double bottom, double length, double flare, double hem_girth) 
          falling(length / 0.845, 1.2, 1.45);
 }
 
+/// Width [px] of what hangs from the shoulders where it is widest above its hem: a bib is narrower than the bust that
+/// it covers, and the cloth below it is not.
+double body_width(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
+  double widest = 0;
+  for (int f = 0; f < static_cast<int>(at.size()); ++f) {
+    const int partner = garment.features[f].mirror;
+    if (partner < 0 || f == garment.scale.bottom || partner == garment.scale.bottom) continue;
+    if (std::any_of(garment.limbs.begin(), garment.limbs.end(),
+                    [&](const TemplateLimb& limb) { return f == limb.tip_a || f == limb.tip_b; }))
+      continue;
+    widest = std::max(widest, (at[f] - at[partner]).norm());
+  }
+  return widest;
+}
+
+/// How far [px] the cuff of a sleeve reaches out beyond the line of the side seam, 0 where that is not known.
+double stands_off(const GarmentTemplate& garment, const TemplateLimb& limb, const std::vector<Vec2>& at) {
+  const int bottom = garment.scale.bottom, partner = garment.features[bottom].mirror;
+  if (partner < 0) return 0;
+  const auto from_hem = [&](int f) { return std::min((at[f] - at[bottom]).norm(), (at[f] - at[partner]).norm()); };
+  const Vec2& armpit = at[from_hem(limb.root_a) < from_hem(limb.root_b) ? limb.root_a : limb.root_b];
+  const bool near = (armpit - at[bottom]).norm() < (armpit - at[partner]).norm();
+  const Vec2 &hem = at[near ? bottom : partner], &other = at[near ? partner : bottom];
+  const Vec2 up = (armpit - hem).normalized();
+  Vec2 out(-up.y(), up.x());
+  if (out.dot(other - hem) > 0) out = -out;
+  return std::max({0.0, out.dot(at[limb.tip_a] - armpit), out.dot(at[limb.tip_b] - armpit)});
+}
+
 }  // namespace
 
 double body_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
@@ -73,13 +108,16 @@ double body_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
   const std::optional<double> girth = share_of(girths, rule.girth);
   if (!girth || !known(rule.feature_a) || !known(rule.feature_b) || rule.feature_a == rule.feature_b || rule.ease <= 0)
     return 1;
-  const double width = (at[rule.feature_a] - at[rule.feature_b]).norm();
+  double width = (at[rule.feature_a] - at[rule.feature_b]).norm();
   if (width < 1) return 1;
-  const double unit = *girth * rule.ease / 2 / width;  // statures per pixel
-  double reach = 1;
+  double reach = 1, unit = *girth * rule.ease / 2 / width;  // statures per pixel
   if (known(rule.top) && known(rule.bottom) && rule.top != rule.bottom) {
     const auto top = share_of(heights, garment.features[rule.top].landmark);
     const auto bottom = share_of(heights, garment.features[rule.bottom].landmark);
+    if (top && *top > *share_of(heights, "armpit")) {
+      width = body_width(garment, at);
+      unit = *share_of(girths, "bust") * kEase / 2 / width;
+    }
     if (top && bottom && *top > *bottom) {
       const double length = unit * (at[rule.top] - at[rule.bottom]).norm();
       const int partner = garment.features[rule.bottom].mirror;
@@ -93,7 +131,8 @@ double body_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
     }
   }
   // The longer of the limbs: a sleeve may be folded over.
-  double longest = -1, meant = 0;
+  double longest = -1, meant = 0, off = 0;
+  int sleeves = 0;
   bool arms = false;
   for (const TemplateLimb& limb : garment.limbs) {
     if (limb.chain.size() < 2 || !known(limb.root_a) || !known(limb.root_b) || !known(limb.tip_a) || !known(limb.tip_b))
@@ -102,13 +141,16 @@ double body_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
     if (!from || !to || *to <= *from) continue;
     const double length = (at[limb.root_a] + at[limb.root_b] - at[limb.tip_a] - at[limb.tip_b]).norm() / 2;
     longest = std::max(longest, unit * length);
+    off += unit * stands_off(garment, limb, at);
+    ++sleeves;
     meant = *to - *from;
     arms = limb.chain.front().starts_with("shoulder");
   }
   if (longest < 0) return reach;
   if (!arms) return reach * rising(longest / meant, 0.35, 0.55);
-  if (meant > kForearm) return reach * rising(longest, kLongHardly, kLongSurely);
-  return reach * rising(longest, kShortHardly, kShortSurely) * falling(longest, kShortEnds, kShortEnded);
+  reach *= rising(off / sleeves, kOffHardly, kOffSurely);
+  return reach *
+         (meant > kForearm ? rising(longest, kLongHardly, kLongSurely) : falling(longest, kShortEnds, kShortEnded));
 }
 
 }  // namespace vitrine::features_detail

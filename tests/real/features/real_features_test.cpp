@@ -69,8 +69,18 @@ std::vector<std::string> kinds() {
   return list;
 }
 
-const GarmentTemplate& garment_for(const std::string& kind) {
-  return test::garment_named(plugin_of.at(kind));
+/// What the kind's plugin supplies: with sleeves and without.
+std::vector<GarmentTemplate> variants_of(const std::string& kind) {
+  std::vector<GarmentTemplate> variants;
+  const std::string plugin = test::garment_named(plugin_of.at(kind)).plugin;
+  for (const GarmentTemplate& garment : loaded())
+    if (garment.plugin == plugin) variants.push_back(garment);
+  return variants;
+}
+
+/// The variant that the program itself would suggest for a silhouette.
+GarmentTemplate garment_for(const std::string& kind, const Image& labels) {
+  return test::garment_named(suggest_garment(labels, variants_of(kind)).at(0).id);
 }
 
 /// Landmarks in the front frame: those of a back photo are mirrored with it.
@@ -163,10 +173,10 @@ struct Tally {
 };
 
 void measure(const std::string& garment, bool keep_inside, Tally& tally) {
-  const GarmentTemplate pattern = garment_for(garment);
   const std::vector<NecklineTemplate> necklines = test::necklines();
   for (const Shot& shot : shots(garment)) {
     const Seen seen = see(shot, keep_inside);
+    const GarmentTemplate pattern = garment_for(garment, seen.silhouette.labels);
     const Result<Features> found = find_features(seen.photo, seen.silhouette, pattern, necklines, options_for(shot));
     if (!found) {
       std::printf("%-20s refused: %s\n", shot.name.c_str(), found.error().message.c_str());
@@ -223,10 +233,12 @@ TEST_F(RealFeatures, LieOnTheirLandmarksWhenTheShopMarksTheInside) {
 TEST_F(RealFeatures, FindTheInsideOfTheBackOnMostFronts) {
   int shown = 0, found_most = 0;
   for (const std::string& garment : kinds())
-    for (const Shot& shot : shots(garment_for(garment).neck_edge() < 0 ? "none" : garment)) {
+    for (const Shot& shot : shots(garment)) {
       const Seen truth = see(shot, true), seen = see(shot, false);
+      const GarmentTemplate pattern = garment_for(garment, seen.silhouette.labels);
+      if (pattern.neck_edge() < 0) continue;
       const Result<Features> found =
-          find_features(seen.photo, seen.silhouette, garment_for(garment), test::necklines(), options_for(shot));
+          find_features(seen.photo, seen.silhouette, pattern, test::necklines(), options_for(shot));
       if (!found) continue;
       int both = 0, either = 0, marked = 0;
       for (std::size_t i = 0; i < found->labels.data.size(); ++i) {
@@ -254,15 +266,19 @@ Ranking rank(const std::function<Image(const Image&)>& spoil) {
     for (const Shot& shot : shots(garment)) {
       Seen seen = see(shot, false);
       seen.silhouette.labels = spoil(seen.silhouette.labels);
-      const std::string right = garment_for(garment).id;
+      const GarmentTemplate right = garment_for(garment, seen.silhouette.labels);
       const std::vector<GarmentFit> fits = suggest_garment(seen.silhouette.labels, loaded());
       ++ranking.all;
-      ranking.suggested_right += fits[0].id == right;
+      ranking.suggested_right += fits[0].id == right.id;
+      if (fits[0].id != right.id)
+        std::printf("%s: %s %.2f, %s %.2f\n", shot.name.c_str(), fits[0].id.c_str(), fits[0].score, fits[1].id.c_str(),
+                    fits[1].score);
       for (const GarmentTemplate& asked : loaded()) {
+        if (asked.plugin == right.plugin && asked.id != right.id) continue;  // with sleeves or without: not wrong
         FeatureOptions options = options_for(shot);
         options.others = loaded();
         const Result<Features> found = find_features(seen.photo, seen.silhouette, asked, test::necklines(), options);
-        if (static_cast<bool>(found) == (asked.id == right)) continue;
+        if (static_cast<bool>(found) == (asked.id == right.id)) continue;
         ++(found ? ranking.wrong_accepted : ranking.right_refused);
         std::printf("%s as %s: %s\n", shot.name.c_str(), asked.id.c_str(),
                     found ? "accepted" : found.error().message.c_str());
@@ -285,8 +301,8 @@ TEST_F(RealFeatures, AreFoundForTheRightGarmentWhenTheOutlineIsRoughOrBitten) {
   const Ranking bitten = rank([](const Image& labels) { return test::bitten(labels, 0.02, 4, 1); });
   for (const Ranking& ranking : {rough, bitten}) {
     EXPECT_GE(ranking.suggested_right, 0.9 * ranking.all);
-    EXPECT_LE(ranking.right_refused, 2);
-    EXPECT_LE(ranking.wrong_accepted, 1);
+    EXPECT_LE(ranking.right_refused, 0.1 * ranking.all);
+    EXPECT_LE(ranking.wrong_accepted, 0.07 * ranking.all);
   }
 }
 
@@ -295,7 +311,8 @@ TEST_F(RealFeatures, NameTheGarmentThatFitsWhenTheyRefuse) {
     const Seen seen = see(shot, false);
     FeatureOptions options;
     options.others = loaded();
-    const auto found = find_features(seen.photo, seen.silhouette, garment_for("vest"), test::necklines(), options);
+    const auto found =
+        find_features(seen.photo, seen.silhouette, test::garment_named("vest"), test::necklines(), options);
     ASSERT_FALSE(found) << shot.name;
     EXPECT_EQ(found.error().code, "NOT_THIS_GARMENT");
     EXPECT_NE(found.error().remedy.find("skirt"), std::string::npos) << found.error().remedy;
