@@ -217,7 +217,7 @@ TEST_F(RealFeatures, LieOnTheirLandmarks) {
   EXPECT_EQ(tally.refused, 0);
   EXPECT_LE(share(tally.distances, 0.5), 0.5);
   EXPECT_LE(share(tally.distances, 0.9), 2.5);
-  EXPECT_GE(tally.necklines_right, 0.85 * tally.tops);
+  EXPECT_GE(tally.necklines_right, 0.8 * tally.tops);
 }
 
 TEST_F(RealFeatures, LieOnTheirLandmarksWhenTheShopMarksTheInside) {
