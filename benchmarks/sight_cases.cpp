@@ -72,10 +72,10 @@ std::vector<Case> marked_photos(const std::filesystem::path& folder) {
 
 Case variant(std::uint32_t seed) {
   using namespace support;
-  static const GarmentKind kinds[] = {GarmentKind::vest, GarmentKind::long_sleeve, GarmentKind::skirt};
-  static const char* const ids[] = {"vest", "long_sleeve", "skirt"};
-  static const char* const necks[] = {"neck_u", "neck_v", "neck_square"};
-  PhotoSpec spec = random_spec(seed, kinds[seed % 3]);
+  static const GarmentKind kinds[] = {GarmentKind::vest, GarmentKind::long_sleeve, GarmentKind::skirt,
+                                      GarmentKind::t_shirt, GarmentKind::dress};
+  const GarmentKind kind = kinds[seed % std::size(kinds)];
+  PhotoSpec spec = random_spec(seed, kind);
   Dice dice(seed * 7919u + 13u);
   // Contrast: the board's colour is drawn towards the garment's until the distance is the drawn one.
   const double wanted = dice.range(30, 160), now = contrast(spec);
@@ -88,8 +88,8 @@ Case variant(std::uint32_t seed) {
   const MadePhoto made = make_photo(spec);
   Case c;
   c.name = "variant-" + std::to_string(seed);
-  c.garment = ids[seed % 3];
-  c.neckline = c.garment == "skirt" ? "" : necks[static_cast<int>(spec.neck)];
+  c.garment = id_of(kind);
+  c.neckline = kind == GarmentKind::skirt ? "" : id_of(spec.neck);
   c.ground = "generated";
   c.photo.path = c.name;
   c.photo.rgb = made.rgb;

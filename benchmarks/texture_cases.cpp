@@ -35,10 +35,6 @@ bool save(const Image& rgb, const std::string& path) {
   return !write_file(path, std::span<const std::uint8_t>(bytes));
 }
 
-const char* garment_of(support::GarmentKind kind) {
-  return kind == support::GarmentKind::vest ? "vest" : kind == support::GarmentKind::skirt ? "skirt" : "long_sleeve";
-}
-
 }  // namespace
 
 std::vector<TextureCase> make_cases(Variant variant, const std::string& folder, const PluginRegistry& registry,
@@ -54,7 +50,7 @@ std::vector<TextureCase> make_cases(Variant variant, const std::string& folder, 
     c.request.front = folder + "/" + c.name + "-front.jpg";
     c.request.back = folder + "/" + c.name + "-back.jpg";
     if (!save(support::make_photo(c.front).rgb, c.request.front) || !save(back.rgb, c.request.back)) return {};
-    c.request.garment = *registry.find_garment(garment_of(c.front.garment));
+    c.request.garment = *registry.find_garment(support::id_of(c.front.garment));
     c.request.necklines.assign(registry.necklines().begin(), registry.necklines().end());
     c.request.body = body;
     c.item = cut_and_mesh(c.request);

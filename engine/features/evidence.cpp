@@ -83,9 +83,21 @@ double net_turn(const Outline& outline, int s, int before, int after) {
   return std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)) * 180 / std::numbers::pi;
 }
 
+/// Where a side seam is drawn in: a feature between two seams at which the outline need not turn. What points outwards
+/// there is no waist.
+bool is_waist(const GarmentTemplate& garment, int feature) {
+  if (garment.features[feature].turn != Turn::any) return false;
+  return std::all_of(garment.edges.begin(), garment.edges.end(), [&](const TemplateEdge& edge) {
+    return (edge.from != feature && edge.to != feature) ||
+           (edge.kind == EdgeKind::seam && !follows_outline(garment, edge));
+  });
+}
+
 /// Strong corners of the outline that no feature explains speak against the garment.
 double unexplained(const Outline& outline, const GarmentTemplate& garment, const std::vector<int>& sample_of) {
   const int n = static_cast<int>(outline.samples.size());
+  std::vector<char> waist;
+  for (int f = 0; f < static_cast<int>(garment.features.size()); ++f) waist.push_back(is_waist(garment, f));
   double sum = 0;
   for (const TemplateEdge& edge : garment.edges) {
     if (follows_outline(garment, edge)) continue;
@@ -99,7 +111,9 @@ double unexplained(const Outline& outline, const GarmentTemplate& garment, const
       const double turn = std::min({std::abs(sample.coarse_deg), std::abs(long_turn(outline, s, before, after)),
                                     std::abs(net_turn(outline, s, before, after))});
       double nearest = kFar;
-      for (const int f : sample_of) nearest = std::min(nearest, (outline.samples[f].at - sample.at).norm());
+      for (std::size_t f = 0; f < sample_of.size(); ++f)
+        if (!waist[f] || sample.coarse_deg < 0)
+          nearest = std::min(nearest, (outline.samples[sample_of[f]].at - sample.at).norm());
       const double gap = nearest / outline.diagonal;
       if (gap > 0.06)
         sum += (edge.kind == EdgeKind::seam ? 1.6 : 0.6) * std::min(1.0, std::abs(sample.coarse_deg) / 90) *

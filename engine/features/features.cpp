@@ -223,6 +223,7 @@ Outline settle_neckline(const Work& work, cv::Mat& panel, Outline outline, std::
     if (n.id == work.options.neckline) forced = &n;
   features.neckline.inside_found = inside_given;
   settle_neck_points(outline, work.garment, features.tilt_deg, place);
+  bool front_seen = inside_given;
   if (!inside_given && work.options.side == Side::front) {
     const std::vector<Vec2> top = stretch(outline.chain, place[neck.from], place[neck.to]);
     const NeckPath path = find_front_neckline(work.photo.rgb, panel, top, forced);
@@ -246,7 +247,8 @@ Outline settle_neckline(const Work& work, cv::Mat& panel, Outline outline, std::
         }
       }
     }
-    if (!features.neckline.inside_found && !path.expected_none) features.warnings.push_back("NECKLINE_UNCLEAR");
+    front_seen = features.neckline.inside_found || path.expected_none;
+    if (!front_seen) features.warnings.push_back("NECKLINE_UNCLEAR");
   }
   const std::vector<Vec2> edge = stretch(outline.chain, place[neck.from], place[neck.to]);
   features.neckline.ratio = neck_ratio(panel, edge, features.neckline.low);
@@ -255,7 +257,7 @@ Outline settle_neckline(const Work& work, cv::Mat& panel, Outline outline, std::
     features.neckline.id = forced->id;
   else if (!work.necklines.empty())
     features.neckline.id = work.necklines[choose_neckline(work.necklines, choice_ratio(features.neckline.ratio, edge),
-                                                          tip_sharpness(edge))]
+                                                          tip_sharpness(edge), front_seen ? relative_depth(edge) : 0)]
                                .id;
   return outline;
 }

@@ -38,7 +38,11 @@ double tip_sharpness(const std::vector<Vec2>& edge);
 double choice_ratio(double ratio, const std::vector<Vec2>& edge);
 
 /// Neckline whose ratio range holds `ratio`, else the one with the nearest range; close to the border of two ranges the
-/// one whose profile is as pointed as the photo's neckline. `necklines` is not empty.
-int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness);
+/// one whose profile is as pointed as the photo's neckline; of two whose ranges overlap the one that is as deep as the
+/// photo's. `depth` [-] is the depth over the width, 0 where it was not seen. `necklines` is not empty.
+int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness, double depth);
+
+/// Depth of a neckline over its width [-]. `edge` runs from neck point to neck point.
+double relative_depth(const std::vector<Vec2>& edge);
 
 }  // namespace vitrine::features_detail

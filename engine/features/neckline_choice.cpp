@@ -77,26 +77,44 @@ double tip_sharpness(const std::vector<Vec2>& edge) {
   return 0.5 * (rise(-1) + rise(1));
 }
 
-double choice_ratio(double ratio, const std::vector<Vec2>& edge) {
-  if (edge.size() < 3) return ratio;
+double relative_depth(const std::vector<Vec2>& edge) {
+  if (edge.size() < 3) return 0;
   const Vec2 along = edge.back() - edge.front();
   double depth = 0;
   for (const Vec2& p : edge) {
     const Vec2 q = p - edge.front();
     depth = std::max(depth, (along.x() * q.y() - along.y() * q.x()) / along.squaredNorm());
   }
+  return depth;
+}
+
+double choice_ratio(double ratio, const std::vector<Vec2>& edge) {
+  if (edge.size() < 3) return ratio;
+  const double depth = relative_depth(edge);
   constexpr double kArc = 1 - std::numbers::pi / 4;  // half ellipse: foreground share of its box
   const double trust = std::clamp((depth - 0.05) / 0.25, 0.0, 1.0);
   return trust * ratio + (1 - trust) * kArc / (1 - kArc);
 }
 
-int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness) {
+int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, double sharpness, double depth) {
+  // A back is shallow whatever its garment's neckline, and a front that is not seen may be as deep as fronts are.
+  constexpr double kUsualDepth = 0.6;
+  const auto too_deep = [&](const NecklineTemplate& n) {
+    return std::abs(std::log((depth > 0 ? depth : kUsualDepth) / std::max(0.01, n.default_depth)));
+  };
+  // The ratio cannot tell necklines of one range from each other, a boat neck from a U: their depth does.
+  const auto outdone = [&](const NecklineTemplate& n) {
+    return std::any_of(necklines.begin(), necklines.end(), [&](const NecklineTemplate& other) {
+      return other.ratio_min < n.ratio_max && n.ratio_min < other.ratio_max && too_deep(other) < too_deep(n);
+    });
+  };
   // Curved sides pull a V's ratio down and wrinkles push a U's up: near a border of two ranges the tip decides.
   constexpr double kUnsure = 1.5;
   int best = 0;
   double nearest = 1e30;
   for (int i = 0; i < static_cast<int>(necklines.size()); ++i) {
     const NecklineTemplate& n = necklines[i];
+    if (outdone(n)) continue;
     const double gap = ratio < n.ratio_min    ? n.ratio_min - ratio
                        : ratio >= n.ratio_max ? ratio - n.ratio_max + 1e-12
                                               : 0;
@@ -115,7 +133,8 @@ int choose_neckline(std::span<const NecklineTemplate> necklines, double ratio, d
   double closest = miss_of(necklines[best]);
   for (int i = 0; i < static_cast<int>(necklines.size()); ++i) {
     const NecklineTemplate& n = necklines[i];
-    if (i == best || ratio <= 0 || ratio * kUnsure < n.ratio_min || ratio > n.ratio_max * kUnsure) continue;
+    if (i == best || outdone(n) || ratio <= 0 || ratio * kUnsure < n.ratio_min || ratio > n.ratio_max * kUnsure)
+      continue;
     const double over = std::max(1.0, std::max(n.ratio_min / ratio, ratio / n.ratio_max));
     const double miss = miss_of(n) + 2 * std::log(over);  // the further over the border, the clearer the tip has to be
     if (miss < closest) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -130,13 +131,25 @@ TEST(Plugins, every_neckline_fits_every_garment_with_a_neck) {
   EXPECT_GE(pairs, 6);
 }
 
-TEST(Plugins, ratio_ranges_of_the_necklines_leave_no_gap_and_no_overlap) {
+TEST(Plugins, ratio_ranges_of_the_necklines_leave_no_gap_and_share_a_range_only_where_depth_tells_them_apart) {
   std::vector<std::pair<double, double>> ranges;
-  for (const NecklineTemplate& n : all().necklines()) ranges.emplace_back(n.ratio_min, n.ratio_max);
+  for (const NecklineTemplate& n : all().necklines()) {
+    ranges.emplace_back(n.ratio_min, n.ratio_max);
+    for (const NecklineTemplate& other : all().necklines()) {
+      if (&n != &other && n.ratio_min < other.ratio_max && other.ratio_min < n.ratio_max) {
+        EXPECT_GE(std::abs(std::log(n.default_depth / other.default_depth)), std::log(2)) << n.id << ", " << other.id;
+      }
+    }
+  }
   std::sort(ranges.begin(), ranges.end());
   ASSERT_FALSE(ranges.empty());
   EXPECT_EQ(ranges.front().first, 0);
-  for (std::size_t i = 1; i < ranges.size(); ++i) EXPECT_EQ(ranges[i].first, ranges[i - 1].second);
+  double reached = 0;
+  for (const auto& [from, to] : ranges) {
+    EXPECT_LE(from, reached);
+    reached = std::max(reached, to);
+  }
+  EXPECT_GE(reached, 100);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ void add_seam(const Curve& curve, double inset, const Canvas& canvas, Layers& la
 }
 
 void add_top_details(const PhotoSpec& spec, const Shape& shape, const Canvas& canvas, Layers& layers) {
-  const bool sleeves = spec.garment == GarmentKind::long_sleeve;
+  const bool sleeves = has_sleeves(spec.garment);
   const cv::Vec3f thread = linear(spec.trim) * 0.75f;
   const Curve& neck = spec.side == Side::front ? shape.top_front : shape.top_back;
   if (sleeves)

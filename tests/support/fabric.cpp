@@ -95,7 +95,7 @@ void add_fabric(const PhotoSpec& spec, const Shape& shape, const Canvas& canvas,
   layers.colour = cv::Mat3f(canvas.height, canvas.width, cv::Vec3f(0, 0, 0));
   layers.part = cv::Mat1b(canvas.height, canvas.width, static_cast<std::uint8_t>(0));
   std::array<Vec2, 2> origin, along;
-  for (int i = 0; i < 2 && spec.garment == GarmentKind::long_sleeve; ++i) {
+  for (int i = 0; i < 2 && has_sleeves(spec.garment); ++i) {
     const cv::Mat1f sleeve = coverage(shape.sleeve[i], canvas);
     layers.part.setTo(i + 1, sleeve > 0.5);
     // The rim of anti-aliased pixels outside belongs to the sleeve too.

@@ -13,10 +13,17 @@
 /// against that truth, and the sample catalogue consists of these pictures, so that the project needs nobody's photos.
 namespace vitrine::support {
 
-enum class GarmentKind { vest, long_sleeve, skirt, trousers, shorts };
-enum class NeckKind { u, v, square };
+enum class GarmentKind { vest, long_sleeve, skirt, t_shirt, dress, trousers, shorts };
+enum class NeckKind { u, v, square, boat };
 enum class Fabric2d { plain, heather, stripes, diagonal, dots, floral, denim };
 using Rgb = std::array<double, 3>;  ///< sRGB, 0-255
+
+/// The garment plugin's and the neckline plugin's id.
+const char* id_of(GarmentKind kind);
+const char* id_of(NeckKind kind);
+inline bool has_sleeves(GarmentKind kind) {
+  return kind == GarmentKind::long_sleeve || kind == GarmentKind::t_shirt;
+}
 
 /// Everything that decides a photo. The same spec gives the same pixels. Lengths in centimetres on the flat garment.
 struct PhotoSpec {
@@ -33,6 +40,7 @@ struct PhotoSpec {
   double shoulder_drop = 1.6;    ///< [cm] fall of the shoulder line
   double armhole_depth = 22;     ///< [cm] height of the armpit
   double waist_share = 0.95;     ///< [-] width at the waist / chest
+  double waist_level = 0.42;     ///< [-] height of the waist between armpit and hem
   double sleeve_length = 60;     ///< [cm] shoulder to cuff
   double sleeve_angle = 31;      ///< [degree] from the vertical
   double sleeve_width = 17.5;    ///< [cm] flat, square to the sleeve at the armpit
@@ -45,8 +53,8 @@ struct PhotoSpec {
   double hem_curve = 0.8;  ///< [cm] the middle of the hem hangs lower than its ends
 
   // Outline of skirts and trousers. Of trousers `hem` is the width of one leg's opening.
-  double hip = 46;         ///< [cm] flat width
-  double hip_depth = 18;   ///< [cm] below the waist
+  double hip = 46;         ///< [cm] flat width; of dresses too
+  double hip_depth = 18;   ///< [cm] below the waist; of dresses too
   double waistband = 4;    ///< [cm] height
   double waist_dip = 1.3;  ///< [cm] the front of the waist lies lower than the back
 

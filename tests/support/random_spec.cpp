@@ -23,12 +23,43 @@ double contrast(const PhotoSpec& spec) {
   return least;
 }
 
+const char* id_of(GarmentKind kind) {
+  switch (kind) {
+    case GarmentKind::vest:
+      return "vest";
+    case GarmentKind::long_sleeve:
+      return "long_sleeve";
+    case GarmentKind::skirt:
+      return "skirt";
+    case GarmentKind::t_shirt:
+      return "t_shirt";
+    case GarmentKind::dress:
+      return "dress";
+  }
+  return "";
+}
+
+const char* id_of(NeckKind kind) {
+  switch (kind) {
+    case NeckKind::u:
+      return "neck_u";
+    case NeckKind::v:
+      return "neck_v";
+    case NeckKind::square:
+      return "neck_square";
+    case NeckKind::boat:
+      return "neck_boat";
+  }
+  return "";
+}
+
 PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment) {
   Dice dice(seed * 3 + static_cast<std::uint32_t>(garment));
   PhotoSpec s;
   s.garment = garment;
   s.seed = seed;
-  s.neck = static_cast<NeckKind>(dice.pick(3));
+  // Boat necks are sold on T-shirts and dresses.
+  s.neck = static_cast<NeckKind>(dice.pick(garment == GarmentKind::t_shirt || garment == GarmentKind::dress ? 4 : 3));
   if (garment == GarmentKind::vest) {
     s.neck_half = dice.range(6.5, 10);
     s.shoulder_half = s.neck_half + dice.range(3, 8);
@@ -63,6 +94,35 @@ PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment) {
     s.length = s.rise + (shorts ? dice.range(5, 28) : s.chest * dice.range(1.35, 2.1));
     s.leg_angle = shorts ? dice.range(4, 16) : dice.range(1.5, 12);
     s.waistband = dice.range(2.5, 4.5);
+  } else if (garment == GarmentKind::t_shirt) {
+    s.chest = dice.range(43, 58);
+    s.shoulder_half = s.chest * dice.range(0.42, 0.46);
+    s.shoulder_drop = dice.range(2.5, 5);
+    s.neck_half = s.neck == NeckKind::boat ? s.shoulder_half * dice.range(0.6, 0.75) : dice.range(7.5, 11);
+    s.neck_depth = s.neck == NeckKind::boat ? 2 * s.neck_half * dice.range(0.16, 0.24) : dice.range(8, 16);
+    s.armhole_depth = s.shoulder_drop + s.chest * dice.range(0.39, 0.43);
+    s.hem = s.chest * dice.range(0.95, 1.1);
+    s.length = s.chest * dice.range(1.25, 1.5);
+    s.sleeve_length = s.chest * dice.range(0.36, 0.46);
+    s.sleeve_angle = dice.range(42, 60);
+    s.sleeve_width = s.chest * dice.range(0.38, 0.42);
+    s.cuff_width = s.chest * dice.range(0.32, 0.37);
+  } else if (garment == GarmentKind::dress) {
+    s.chest = dice.range(38, 52);
+    s.shoulder_half = s.chest * dice.range(0.34, 0.42);
+    s.shoulder_drop = dice.range(1.5, 3);
+    s.neck_half =
+        s.neck == NeckKind::boat ? s.shoulder_half * dice.range(0.65, 0.78) : s.shoulder_half - dice.range(4, 8);
+    s.neck_depth = s.neck == NeckKind::boat ? 2 * s.neck_half * dice.range(0.16, 0.24) : dice.range(8, 17);
+    s.armhole_depth = dice.range(19, 24);
+    s.length = s.chest * dice.range(2.05, 2.6);
+    s.waist_level = dice.range(16, 20) / (s.length - s.armhole_depth);
+    s.waist_share = dice.range(0.8, 0.98);
+    s.hip = s.chest * dice.range(1.06, 1.16);
+    s.hip_depth = dice.range(18, 22);
+    s.hem = s.hip * dice.range(1.0, 1.6);
+    s.rib = dice.pick(3) == 0 ? 0 : dice.range(1, 2.2);
+    s.hem_curve = dice.range(0.2, 1.5);
   } else {
     s.chest = dice.range(30, 44);
     s.length = dice.range(36, 75);
@@ -90,8 +150,8 @@ PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment) {
     s.third = random_colour(dice);
     s.trim = random_colour(dice);
   } while (contrast(s) < 70);
-  s.width = garment == GarmentKind::long_sleeve ? 540 : 450;
-  s.height = garment == GarmentKind::long_sleeve ? 470 : 550;
+  s.width = has_sleeves(garment) ? 540 : 450;
+  s.height = has_sleeves(garment) ? 470 : 550;
   s.fill = dice.range(0.72, 0.9);
   return s;
 }

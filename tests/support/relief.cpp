@@ -47,7 +47,7 @@ std::vector<Fold> folds_of_top(const PhotoSpec& s, const Shape& shape, Dice& dic
       folds.push_back(
           {from, (from + to) / 2 + Vec2(0, dice.range(-2, 2)), to, dice.range(0.7, 1.5), dice.range(0.05, 0.12)});
     }
-    if (s.garment == GarmentKind::long_sleeve) {
+    if (has_sleeves(s.garment)) {
       const Vec2 upper = shape.landmarks.at(i == 0 ? "cuff_upper_left" : "cuff_upper_right");
       const Vec2 lower = shape.landmarks.at(i == 0 ? "cuff_lower_left" : "cuff_lower_right");
       const Vec2 shoulder = shape.landmarks.at(i == 0 ? "shoulder_left" : "shoulder_right");

@@ -143,10 +143,6 @@ PhotoSpec floral_skirt() {
   return s;
 }
 
-const char* name_of(GarmentKind kind) {
-  return kind == GarmentKind::vest ? "vest" : kind == GarmentKind::long_sleeve ? "long_sleeve" : "skirt";
-}
-
 }  // namespace
 
 const std::vector<SampleItem>& sample_items() {
@@ -178,7 +174,7 @@ std::string sample_manifest() {
     };
     const double chest = (point("armpit_right", "waist_right") - point("armpit_left", "waist_left")).norm();
     const double length = points.at("hem_left").y() - point("neck_left", "waist_left").y();
-    text += item.sku + "," + name_of(item.front.garment) + "," + item.neckline + "," + item.sku + "-front.jpg," +
+    text += item.sku + "," + id_of(item.front.garment) + "," + item.neckline + "," + item.sku + "-front.jpg," +
             item.sku + "-back.jpg,,,," + number(chest) + "," + number(length) + "," + item.fabric + ",\"" + title +
             "\"\n";
   }

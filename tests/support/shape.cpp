@@ -54,6 +54,13 @@ Curve half_neck(NeckKind kind, double w, double depth) {
   }
   Curve c;
   const int n = static_cast<int>((w + depth) / step);
+  if (kind == NeckKind::boat) {  // a shallow arc
+    for (int i = 0; i <= n; ++i) {
+      const double t = 1 - static_cast<double>(i) / n;
+      c.emplace_back(w * t, depth * (1 - t * t));
+    }
+    return c;
+  }
   for (int i = 0; i <= n; ++i) {
     const double t = i * std::numbers::pi / 2 / n;
     c.emplace_back(i == n ? 0 : w * std::pow(std::cos(t), 0.86), depth * std::pow(std::sin(t), 0.86));
@@ -62,6 +69,7 @@ Curve half_neck(NeckKind kind, double w, double depth) {
 }
 
 struct Half {
+  Vec2 waist = Vec2::Zero();  // of a dress
   // From the middle outwards, downwards. Of trousers `hem` is the whole lower edge, `cuff` the leg's opening in it.
   Curve top_front, top_back, shoulder, armhole, upper, cuff, under, side, hem;
 };
@@ -96,7 +104,7 @@ void add_sleeve(Half& h, const PhotoSpec& s, const Vec2& shoulder, const Vec2& a
 
 Half half_top(const PhotoSpec& s, double wide, double turn, double drop) {
   Half h;
-  const bool sleeves = s.garment == GarmentKind::long_sleeve;
+  const bool sleeves = has_sleeves(s.garment);
   const Vec2 neck(s.neck_half, 0), shoulder(s.shoulder_half * wide, s.shoulder_drop);
   const Vec2 armpit(s.chest / 2 * wide, s.armhole_depth + 0.5 * drop);
   const Vec2 hem(s.hem / 2 * wide, s.length - s.hem_curve + drop);
@@ -109,9 +117,17 @@ Half half_top(const PhotoSpec& s, double wide, double turn, double drop) {
                       : bezier(shoulder, {shoulder.x() - 1.0, shoulder.y() + 0.6 * d},
                                {shoulder.x() + 0.22 * (armpit.x() - shoulder.x()), shoulder.y() + 0.97 * d}, armpit);
   if (sleeves) add_sleeve(h, s, shoulder, armpit, turn);
-  const double waist_y = armpit.y() + 0.42 * (hem.y() - armpit.y());
+  const double waist_y = armpit.y() + s.waist_level * (hem.y() - armpit.y());
   const double waist_x = s.waist_share * armpit.x();
-  h.side = bezier(armpit, {waist_x - 0.3, waist_y - 3}, {waist_x, waist_y + 8}, hem);
+  if (s.garment == GarmentKind::dress) {
+    const Vec2 waist(waist_x, waist_y), hip(s.hip / 2 * wide, waist_y + s.hip_depth);
+    h.side = bezier(armpit, armpit + Vec2(-0.2, 5), waist - Vec2(0, 5), waist);
+    append(h.side, bezier(waist, waist + Vec2(0.1, 4), hip - 6 * (hem - waist).normalized(), hip));
+    append(h.side, line(hip, hem));
+    h.waist = waist;
+  } else {
+    h.side = bezier(armpit, {waist_x - 0.3, waist_y - 3}, {waist_x, waist_y + 8}, hem);
+  }
   h.hem = bezier({0, s.length}, {hem.x() * 0.45, s.length}, {hem.x() * 0.8, s.length - 0.75 * s.hem_curve}, hem);
   return h;
 }
@@ -224,13 +240,14 @@ Shape make_shape(const PhotoSpec& s) {
       if (part == &Half::hem && s.gathers > 0) wave(curve, s);
       for (Vec2& p : curve) p = warp(p, s);
     }
+    half[i].waist = warp(Vec2(sign * half[i].waist.x(), half[i].waist.y()), s);
   }
   const auto closed = [&](Curve Half::*top) {
     Curve outline;
     for (const int i : {1, 0}) {
       Curve run = half[i].*top;
       append(run, half[i].shoulder);
-      if (s.garment == GarmentKind::long_sleeve) {
+      if (has_sleeves(s.garment)) {
         append(run, half[i].upper);
         append(run, half[i].cuff);
         append(run, half[i].under);
@@ -278,7 +295,8 @@ Shape make_shape(const PhotoSpec& s) {
     shape.landmarks["armpit" + name] = h.side.front();
     shape.shoulder[i] = h.shoulder;
     shape.armhole[i] = h.armhole;
-    if (s.garment == GarmentKind::long_sleeve) {
+    if (s.garment == GarmentKind::dress) shape.landmarks["waist" + name] = h.waist;
+    if (has_sleeves(s.garment)) {
       shape.landmarks["cuff_upper" + name] = h.cuff.front();
       shape.landmarks["cuff_lower" + name] = h.cuff.back();
       shape.sleeve[i] = h.upper;

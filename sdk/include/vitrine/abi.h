@@ -183,7 +183,7 @@ typedef struct vitrine_neckline {
   const char* title;                  /* for people, e.g. "U-neck" */
   vitrine_profile_point_span profile; /* 3..256; s strictly ascending from 0 to 1, depth 0 at both ends, 1 somewhere */
   double ratio_min, ratio_max;        /* [-] foreground/background pixels of the neck area that select it: [min, max) */
-  double default_depth;               /* [-] depth / width of the neck where the photo shows no neckline, (0, 5] */
+  double default_depth;               /* [-] usual depth / width, (0, 5]; tells necklines of one ratio apart */
 } vitrine_neckline;
 VITRINE_DECLARE_SPAN(vitrine_neckline);
 

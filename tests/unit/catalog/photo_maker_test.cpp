@@ -13,7 +13,8 @@ using namespace vitrine::support;
 
 namespace {
 
-constexpr GarmentKind kinds[] = {GarmentKind::vest, GarmentKind::long_sleeve, GarmentKind::skirt};
+constexpr GarmentKind kinds[] = {GarmentKind::vest, GarmentKind::long_sleeve, GarmentKind::skirt, GarmentKind::t_shirt,
+                                 GarmentKind::dress};
 
 /// Calls `check` with the front and back photos of 5 random garments of each kind.
 template <class Check>
@@ -80,9 +81,13 @@ TEST(PhotoMaker, names_the_landmarks_of_its_garment) {
                                    "armpit_left", "armpit_right", "hem_left", "hem_right"));
   EXPECT_THAT(names(GarmentKind::skirt),
               UnorderedElementsAre("waist_left", "waist_right", "waist_low", "hem_left", "hem_right"));
-  const auto sleeved = names(GarmentKind::long_sleeve);
-  for (const char* name : {"cuff_upper_left", "cuff_upper_right", "cuff_lower_left", "cuff_lower_right", "armpit_left"})
-    EXPECT_EQ(sleeved.count(name), 1u) << name;
+  for (const GarmentKind kind : {GarmentKind::long_sleeve, GarmentKind::t_shirt})
+    for (const char* name :
+         {"cuff_upper_left", "cuff_upper_right", "cuff_lower_left", "cuff_lower_right", "armpit_left"})
+      EXPECT_EQ(names(kind).count(name), 1u) << name;
+  const auto dress = names(GarmentKind::dress);
+  for (const char* name : {"neck_low", "armpit_left", "waist_left", "waist_right", "hem_right"})
+    EXPECT_EQ(dress.count(name), 1u) << name;
 }
 
 TEST(PhotoMaker, lays_one_whole_garment_inside_the_picture) {

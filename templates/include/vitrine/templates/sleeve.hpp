@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// A long sleeve between shoulder and armpit, and the long-sleeved top: the torso with two of them.
+// Sleeves between shoulder and armpit, long and short, and the long-sleeved top: the torso with two long ones.
 #include <array>
 
 #include "vitrine/plugin.hpp"
@@ -8,14 +8,23 @@
 
 namespace vitrine::templates {
 
-inline constexpr std::array<vitrine_feature, 2> sleeve_right = {{
-    {"cuff_upper_right", "wrist_right", "cuff_upper_left", VITRINE_TURN_CONVEX, 0},
-    {"cuff_lower_right", "wrist_right", "cuff_lower_left", VITRINE_TURN_CONVEX, 0},
-}};
-inline constexpr std::array<vitrine_feature, 2> sleeve_left = {{
-    {"cuff_lower_left", "wrist_left", "cuff_lower_right", VITRINE_TURN_CONVEX, 0},
-    {"cuff_upper_left", "wrist_left", "cuff_upper_right", VITRINE_TURN_CONVEX, 0},
-}};
+/// The cuff's corners; `landmark`: where on the arm a cuff of this kind ends.
+consteval std::array<vitrine_feature, 2> sleeve_to_right(const char* landmark) {
+  return {{
+      {"cuff_upper_right", landmark, "cuff_upper_left", VITRINE_TURN_CONVEX, 0},
+      {"cuff_lower_right", landmark, "cuff_lower_left", VITRINE_TURN_CONVEX, 0},
+  }};
+}
+consteval std::array<vitrine_feature, 2> sleeve_to_left(const char* landmark) {
+  return {{
+      {"cuff_lower_left", landmark, "cuff_lower_right", VITRINE_TURN_CONVEX, 0},
+      {"cuff_upper_left", landmark, "cuff_upper_right", VITRINE_TURN_CONVEX, 0},
+  }};
+}
+inline constexpr auto sleeve_right = sleeve_to_right("wrist_right");
+inline constexpr auto sleeve_left = sleeve_to_left("wrist_left");
+inline constexpr auto short_sleeve_right = sleeve_to_right("elbow_right");
+inline constexpr auto short_sleeve_left = sleeve_to_left("elbow_left");
 inline constexpr std::array<vitrine_edge, 3> sleeve_edges_right = {{
     {"sleeve_upper_right", "shoulder_right", "cuff_upper_right", VITRINE_EDGE_SEAM, 0},
     {"cuff_right", "cuff_upper_right", "cuff_lower_right", VITRINE_EDGE_OPEN, 0},
@@ -35,6 +44,14 @@ inline constexpr std::array<vitrine_name, 3> arm_right = {{{"shoulder_right"}, {
 inline constexpr std::array<vitrine_limb, 2> sleeve_limbs = {{
     {"sleeve_left", "shoulder_left", "armpit_left", "cuff_upper_left", "cuff_lower_left", sdk::span(arm_left)},
     {"sleeve_right", "shoulder_right", "armpit_right", "cuff_upper_right", "cuff_lower_right", sdk::span(arm_right)},
+}};
+inline constexpr std::array<vitrine_name, 2> upper_arm_left = {{{"shoulder_left"}, {"elbow_left"}}};
+inline constexpr std::array<vitrine_name, 2> upper_arm_right = {{{"shoulder_right"}, {"elbow_right"}}};
+/// A sleeve that ends above the elbow follows the upper arm alone.
+inline constexpr std::array<vitrine_limb, 2> short_sleeve_limbs = {{
+    {"sleeve_left", "shoulder_left", "armpit_left", "cuff_upper_left", "cuff_lower_left", sdk::span(upper_arm_left)},
+    {"sleeve_right", "shoulder_right", "armpit_right", "cuff_upper_right", "cuff_lower_right",
+     sdk::span(upper_arm_right)},
 }};
 
 // --- The long-sleeved top.
@@ -68,18 +85,11 @@ inline constexpr vitrine_pose_point sleeves_hanging_half[] = {
     {"cuff_upper_left", 0.020, 0.950, 0.14}, {"hem_left", 0.215, 0.760, 0.14},
 };
 inline constexpr auto sleeves_hanging = sdk::symmetric_pose(long_sleeve_features, sleeves_hanging_half);
-inline constexpr vitrine_pose_point sleeves_short_half[] = {
-    {"neck_left", 0.365, 0.003, 0.08},       {"shoulder_left", 0.195, 0.078, 0.08},
-    {"armpit_left", 0.165, 0.380, 0.12},     {"cuff_lower_left", 0.105, 0.400, 0.12},
-    {"cuff_upper_left", 0.005, 0.230, 0.12}, {"hem_left", 0.160, 0.985, 0.12},
-};
-inline constexpr auto sleeves_short = sdk::symmetric_pose(long_sleeve_features, sleeves_short_half);
-inline constexpr std::array<vitrine_pose, 5> long_sleeve_poses = {{
+inline constexpr std::array<vitrine_pose, 4> long_sleeve_poses = {{
     {"sleeves_down", sdk::span(sleeves_down)},
     {"sleeves_spread", sdk::span(sleeves_spread)},
     {"sleeves_wide", sdk::span(sleeves_wide)},
     {"sleeves_hanging", sdk::span(sleeves_hanging)},
-    {"sleeves_short", sdk::span(sleeves_short)},
 }};
 
 inline constexpr auto long_sleeve_edges =

@@ -114,7 +114,7 @@ struct NecklineTemplate {
   /// Foreground/background ratio of the neck area that selects this neckline, [min, max). Paper III.A: near 1 for V,
   /// near 0 for square, in between for U.
   double ratio_min = 0, ratio_max = 0;
-  double default_depth = 0.6;  ///< depth / neck width, as the plugin states it; no room reads it yet
+  double default_depth = 0.6;  ///< usual depth / neck width; tells necklines of one ratio range apart
 };
 
 }  // namespace vitrine
