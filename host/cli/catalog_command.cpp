@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "catalog_input.hpp"
 #include "common.hpp"
 #include "vitrine/catalog.hpp"
 
@@ -14,6 +15,7 @@ struct CatalogArguments {
   MannequinOptions mannequin;
   JobOptions job;
   CatalogOptions catalog;
+  InputFlags input;
   std::string manifest;
 };
 
@@ -44,7 +46,7 @@ ItemOutcome refuse(const Error& error) {
 int run_catalog_command(const CatalogArguments& arguments) {
   ConvertRequest probe;
   if (auto e = arguments.job.apply(probe)) return fail(*e);
-  const auto items = read_manifest(arguments.manifest);
+  const auto items = read_items(arguments.manifest, arguments.input.options());
   if (!items) return fail(items.error());
   const auto registry = arguments.plugins.load();
   if (!registry) return fail(registry.error());
@@ -54,6 +56,7 @@ int run_catalog_command(const CatalogArguments& arguments) {
   if (!body) return fail(body.error());
 
   const auto convert_item = [&](const CatalogItem& row, const std::string& folder) -> ItemOutcome {
+    if (row.refusal) return refuse(*row.refusal);
     ConvertRequest request;
     request.name = row.sku;
     request.front = row.front;
@@ -85,12 +88,14 @@ int run_catalog_command(const CatalogArguments& arguments) {
 void add_catalog(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("catalog", "A whole catalogue");
   command->require_subcommand(1);
-  auto* run = command->add_subcommand("run", "Convert every item of a manifest, each in a worker of its own");
+  add_catalog_input(*command, exit_code);
+  auto* run =
+      command->add_subcommand("run", "Convert every item of a manifest, feed or folder, each in a worker of its own");
   auto a = std::make_shared<CatalogArguments>();
-  run->add_option("manifest", a->manifest, "CSV: sku, garment, neckline, front, back, ... (docs/CATALOG.md)")
-      ->required();
+  run->add_option("manifest", a->manifest, "Manifest, shop feed or folder of photos (docs/CATALOG.md)")->required();
   run->add_option("--out", a->catalog.out_dir, "Output folder; one folder per SKU and report.jsonl")->required();
   run->add_option("--jobs", a->catalog.jobs, "Workers at a time")->check(CLI::Range(1, 256))->capture_default_str();
+  a->input.add_to(*run);
   a->job.add_to(*run);
   a->mannequin.add_to(*run);
   a->plugins.add_to(*run);
