@@ -22,8 +22,8 @@ std::string default_rules() {
       {"name": "alt-other", "alt": "\\b(details?|close-?up|swatch|size (chart|guide)|lifestyle|side view|from the side|worn|on model)\\b", "is": "other"},
       {"name": "alt-back", "alt": "^\\W*(the )?(back|rear|behind)\\W*$|\\b(back|rear)[- ](view|side|image|photo|picture|shot)\\b|^\\W*(the )?(back|rear) of\\b|[-–—|,:;(/]\\s*(the )?(back|rear)\\W*$|\\bfrom (the )?(back|behind)\\b|\\b(rückseite|rückansicht|von hinten|vue de dos|vista trasera)\\b", "is": "back"},
       {"name": "alt-front", "alt": "^\\W*(the )?front\\W*$|\\bfront[- ](view|side|image|photo|picture|shot)\\b|^\\W*(the )?front of\\b|[-–—|,:;(/]\\s*(the )?front\\W*$|\\bfrom (the )?front\\b|\\b(vorderseite|vorderansicht|von vorne|vue de face|vista frontal)\\b", "is": "front"},
-      {"name": "file-back", "file": "(^|-|[0-9])(back|rear|rueckseite|rückseite|hinten|dos|espalda|retro)(-(view|side))?(-[0-9]{1,2})?$|-b$", "is": "back"},
-      {"name": "file-front", "file": "(^|-|[0-9])(front|vorderseite|vorne|face|devant|frente|fronte)(-(view|side))?(-[0-9]{1,2})?$|-f$", "is": "front"}
+      {"name": "file-back", "file": "(^|-|[0-9])(back|rear|rueckseite|rückseite|hinten|dos|espalda|retro)(-(view|side))?(-[0-9]{1,2})?$|(^|-)b$", "is": "back"},
+      {"name": "file-front", "file": "(^|-|[0-9])(front|vorderseite|vorne|face|devant|frente|fronte)(-(view|side))?(-[0-9]{1,2})?$|(^|-)f$", "is": "front"}
     ],
     [
       {"name": "file-number-1", "file": "(^|-)0*1$", "is": "front"},
