@@ -15,4 +15,7 @@ Result<InputKind> kind_of(const std::string& file, std::string_view text, const 
 Result<CatalogInput> read_input_text(const std::string& file, std::string_view text, InputKind kind, const Rules& rules,
                                      const ImageRoot* root, bool details);
 
+/// What write_manifest writes to this path. Error: MANIFEST_VALUE (65).
+Result<std::string> manifest_text(const std::vector<CatalogItem>& items, const std::string& path);
+
 }  // namespace vitrine::input

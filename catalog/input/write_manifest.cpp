@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "csv.hpp"
+#include "read_input.hpp"
 #include "text.hpp"
 #include "vitrine/catalog_input.hpp"
 
@@ -69,7 +70,7 @@ std::optional<Error> check(const Fields& fields, const std::string& path) {
 
 }  // namespace
 
-std::optional<Error> write_manifest(const std::vector<CatalogItem>& items, const std::string& path) {
+Result<std::string> input::manifest_text(const std::vector<CatalogItem>& items, const std::string& path) {
   const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
   const bool json = input::lower(fs::path(path).extension().string()) == ".json";
   std::string text;
@@ -77,7 +78,7 @@ std::optional<Error> write_manifest(const std::vector<CatalogItem>& items, const
   for (const CatalogItem& item : items) {
     if (item.refusal) continue;
     const Fields fields = fields_of(item, folder);
-    if (auto error = check(fields, path)) return error;
+    if (auto error = check(fields, path)) return *error;
     if (json) {
       nlohmann::ordered_json entry;
       for (const auto& [name, value] : fields)
@@ -89,18 +90,25 @@ std::optional<Error> write_manifest(const std::vector<CatalogItem>& items, const
       list.push_back(std::move(entry));
       continue;
     }
-    if (text.empty())
-      for (const auto& [name, value] : fields) text += (text.empty() ? "" : ",") + std::string(name);
     std::string line;
+    if (text.empty()) {
+      for (const auto& [name, value] : fields) line += (line.empty() ? "" : ",") + std::string(name);
+      line += '\n';
+    }
     for (std::size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + csv::quoted(fields[i].second);
-    text += "\n" + line;
+    text += line + "\n";
   }
-  if (json) text = nlohmann::ordered_json{{"items", std::move(list)}}.dump(1);
-  if (!text.empty()) text += '\n';
+  if (json) text = nlohmann::ordered_json{{"items", std::move(list)}}.dump(1) + "\n";
+  return text;
+}
 
+std::optional<Error> write_manifest(const std::vector<CatalogItem>& items, const std::string& path) {
+  const Result<std::string> text = input::manifest_text(items, path);
+  if (!text) return text.error();
+  const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
   const fs::path temporary = folder / ("." + fs::path(path).filename().string() + "~");
   std::ofstream out(temporary, std::ios::binary);
-  out << text;
+  out << *text;
   out.close();
   std::error_code failed;
   if (out) fs::rename(temporary, path, failed);
