@@ -61,9 +61,14 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// Folders of a run's own, and what was refused, are no items.
+bool is_item(const std::string& folder) {
+  return folder[0] != '.' && folder != "quarantine" && folder != "shards";
+}
+
 /// The picture that goes before the model: the first view of those that a run can make.
 void find_poster(const fs::path& root, const std::string& folder, ItemFolder& item) {
-  for (const char* name : {"preview-front", "front", "view-front", "poster", "preview"})
+  for (const char* name : {"front", "preview"})
     for (const char* kind : {".webp", ".jpg", ".png"}) {
       const std::string path = folder + name + kind;
       std::error_code failed;
@@ -120,13 +125,13 @@ Result<std::vector<ItemFolder>> scan(const std::string& out_dir, std::vector<Err
     }
   };
   for (const std::string& sku : names_in(root)) {
-    if (sku[0] == '.' || !fs::is_directory(root / sku, failed)) continue;
+    if (!is_item(sku) || !fs::is_directory(root / sku, failed)) continue;
     ItemFolder item;
     item.sku = sku;
     take(item, sku + "/", "");
     find_poster(root, sku + "/", item);
     for (const std::string& size : names_in(root / sku)) {
-      if (size[0] == '.' || !fs::is_directory(root / sku / size, failed)) continue;
+      if (!is_item(size) || !fs::is_directory(root / sku / size, failed)) continue;
       take(item, sku + "/" + size + "/", size);
       if (item.poster.empty()) find_poster(root, sku + "/" + size + "/", item);
     }

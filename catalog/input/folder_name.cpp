@@ -27,7 +27,7 @@ bool ends_like_ours(std::string_view id) {
 
 /// What a run leaves beside the items' folders.
 bool is_reserved(const std::string& id) {
-  for (const char* file : {"report", "summary", "journal", "items", "quarantine", "plan", "sitemap"})
+  for (const char* file : {"report", "timings", "summary", "junit", "journal", "items", "quarantine", "shards"})
     if (lower(id) == file || lower(id).rfind(std::string(file) + ".", 0) == 0) return true;
   return false;
 }

@@ -84,12 +84,16 @@ int run_feed(const FeedArguments& a) {
 }  // namespace
 
 void InputFlags::add_to(CLI::App& app) {
-  app.add_option("--rules", rules, "JSON: which picture is front or back, which product is which garment");
+  const char* const group = "Input";
+  app.add_option("--rules", rules, "JSON: which picture is front or back, which product is which garment")
+      ->group(group);
   app.add_option("--image-root", image_root,
-                 "Folder with the feed's pictures; nothing outside is read, nothing is downloaded");
+                 "Folder with the feed's pictures; nothing outside is read, nothing is downloaded")
+      ->group(group);
   app.add_option("--input-kind", kind, "auto, or what the input is")
       ->check(CLI::IsMember({"auto", "manifest", "folder", "shopify", "google", "woocommerce"}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(group);
 }
 
 InputOptions InputFlags::options() const {

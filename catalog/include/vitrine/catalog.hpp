@@ -20,15 +20,16 @@ struct CatalogItem {
   /// Make the back panel from the front's mirrored silhouette, because the shop has no back photo. Each row has either
   /// this or a back photo.
   bool mirror_back = false;
-  std::string front_mask, back_mask;    ///< mask files, or empty
-  std::optional<double> chest_cm;       ///< [cm] flat width the garment type names: armpit to armpit, a skirt's waist
-  std::optional<double> length_cm;      ///< [cm]
-  std::string fabric;                   ///< fabric of the garment type, or empty for its default
-  std::vector<std::string> mannequins;  ///< sizes or presets, each a model of its own; empty = the job's mannequin
-  std::string title;                    ///< for people
-  std::string copyright;                ///< line kept in the item's files, or empty
-  std::string product_id;               ///< the shop's own id where that cannot be a folder's name; else empty
-  int line = 0;                         ///< of the manifest, for messages
+  std::string front_mask, back_mask;  ///< mask files, or empty
+  std::optional<double> chest_cm;     ///< [cm] flat width the garment type names: armpit to armpit, a skirt's waist
+  std::optional<double> length_cm;    ///< [cm]
+  std::string fabric;                 ///< fabric of the garment type, or empty for its default
+  std::string title;                  ///< for people
+  std::string copyright;              ///< line kept in the item's files, or empty
+  int line = 0;                       ///< of the manifest, for messages
+  /// Size run: mannequins as --mannequin takes them, or the sizes XS, S, M, L, XL, XXL. Empty = the run's own.
+  std::vector<std::string> mannequins;
+  std::string product_id;  ///< the shop's own id where that cannot be a folder's name; else empty
   /// Set when a feed's product cannot be converted: it has its place in the reports, but there is nothing to run.
   std::shared_ptr<const Error> refusal;
 };
