@@ -43,8 +43,8 @@ class FeedOut : public Inputs {
     glb("out/a/dressed.glb");
     write("out/a/preview.png", "png");
     write("out/report.jsonl", "{}");
-  glb("out/quarantine/c/garment.glb");
-  glb("out/a/quarantine/xl/garment.glb");
+    glb("out/quarantine/c/garment.glb");
+    glb("out/a/quarantine/xl/garment.glb");
     std::filesystem::create_directories(root / "out/refused");
   }
   vitrine::CatalogInput told() const {
