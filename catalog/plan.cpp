@@ -29,7 +29,8 @@ std::string row_text(const CatalogItem& item) {
                  {"fabric", item.fabric},
                  {"title", item.title},
                  {"copyright", item.copyright},
-                 {"mannequins", item.mannequins}};
+                 {"mannequins", item.mannequins},
+                 {"refusal", item.refusal ? item.refusal->code + ": " + item.refusal->message : ""}};
   return row.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

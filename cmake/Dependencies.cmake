@@ -15,6 +15,10 @@ find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)                 # debian: l
 find_package(meshoptimizer CONFIG REQUIRED)                          # debian: libmeshoptimizer-dev
 find_package(embree 3.13 REQUIRED)                                   # debian: libembree-dev
 find_package(OpenSSL 3.0 REQUIRED COMPONENTS Crypto)                 # debian: libssl-dev
+# Both read what strangers wrote: expat stops at a document type before it means anything, RE2 needs linear time.
+find_package(expat 2.5 REQUIRED)                                     # debian: libexpat1-dev
+find_library(RE2_LIBRARY re2 REQUIRED)                               # debian: libre2-dev
+find_path(RE2_INCLUDE_DIR re2/re2.h REQUIRED)
 if(VITRINE_TESTS)
   find_package(GTest REQUIRED)                                       # debian: libgtest-dev libgmock-dev
   # Plugins are built by other people's tools. Where one is missing its tests are there and fail.

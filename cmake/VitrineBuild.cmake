@@ -25,6 +25,9 @@ if(VITRINE_SANITIZE)
   target_compile_options(vitrine_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(vitrine_flags INTERFACE -fsanitize=address,undefined)
 endif()
+if(VITRINE_LIBFUZZER)
+  target_compile_options(vitrine_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # vitrine_room(NAME [SEES room...] [LIBS target...]): a room is its folder: every .cpp in it, and include/ as its only
 # public face. SEES are the rooms to its left that its own header needs; LIBS stay private to its .cpp files.

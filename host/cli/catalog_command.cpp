@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <set>
 
+#include "catalog_input.hpp"
 #include "catalog_item.hpp"
 #include "common.hpp"
 #include "vitrine/catalog.hpp"
@@ -18,6 +19,7 @@ struct CatalogArguments {
   MannequinOptions mannequin;
   JobOptions job;
   CatalogOptions catalog;
+  InputFlags input;
   std::string manifest, shard, item_memory = "4G", progress = "auto", fail_on = "any";
   std::vector<std::string> mannequins;
 };
@@ -86,7 +88,7 @@ std::string plugins_text(const PluginRegistry& registry) {
 /// All options of the command that decide an item's bytes, with their values: every one but those that are known not
 /// to, so that an option that is new makes items anew.
 std::string settings_text(const CLI::App& command) {
-  static const std::set<std::string> how_to_run{"Run", "Limits", "Plugins", "Mannequin"};
+  static const std::set<std::string> how_to_run{"Run", "Limits", "Plugins", "Mannequin", "Input"};
   static const std::set<std::string> others{"manifest", "--out", "--jobs", "--help"};
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
@@ -112,7 +114,7 @@ int run_catalog_command(CatalogArguments& arguments, const std::string& settings
     return fail(usage("--mannequin and --mannequins exclude each other", "leave one out"));
   if (auto e = MannequinShelf::check_run(arguments.mannequins)) return fail(*e);
 
-  const auto items = read_manifest(arguments.manifest);
+  const auto items = read_items(arguments.manifest, arguments.input.options());
   if (!items) return fail_run(items.error());
   std::set<std::string> different(arguments.mannequins.begin(), arguments.mannequins.end());
   for (const CatalogItem& item : *items) different.insert(item.mannequins.begin(), item.mannequins.end());
@@ -205,6 +207,7 @@ void add_run(CLI::App& command, CLI::App& app, int& exit_code) {
   a->job.add_to(*run);
   a->mannequin.add_to(*run);
   a->plugins.add_to(*run);
+  a->input.add_to(*run);
   run->callback([a, run, &app, &exit_code] {
     a->catalog.progress = a->progress == "json"                                             ? ProgressKind::json
                           : a->progress == "none" || app.get_option("--quiet")->count() > 0 ? ProgressKind::none
@@ -230,6 +233,7 @@ void add_catalog(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   add_run(*command, app, exit_code);
   add_merge(*command, exit_code);
+  add_catalog_input(*command, exit_code);
 }
 
 }  // namespace vitrine::cli

@@ -98,6 +98,7 @@ std::string ItemKitchen::settings_of(const CatalogItem& row) const {
 }
 
 std::optional<Error> ItemKitchen::prepare(const CatalogItem& row) const {
+  if (row.refusal) return std::nullopt;  // nothing is made of it
   for (const std::string& name : mannequins_of(row)) {
     const auto body = shelf.make(name);
     if (!body && row.mannequins.empty()) return body.error();
@@ -106,6 +107,7 @@ std::optional<Error> ItemKitchen::prepare(const CatalogItem& row) const {
 }
 
 ItemOutcome ItemKitchen::convert_item(const CatalogItem& row, const std::string& folder) const {
+  if (row.refusal) return refuse(*row.refusal);
   ConvertRequest request;
   request.name = row.sku;
   request.front = row.front;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct CatalogItem {
   int line = 0;                       ///< of the manifest, for messages
   /// Size run: mannequins as --mannequin takes them, or the sizes XS, S, M, L, XL, XXL. Empty = the run's own.
   std::vector<std::string> mannequins;
+  std::string product_id;  ///< the shop's own id where that cannot be a folder's name; else empty
+  /// Set when a feed's product cannot be converted: it has its place in the reports, but there is nothing to run.
+  std::shared_ptr<const Error> refusal;
 };
 
 /// Reads a manifest: CSV (RFC 4180: commas, quotes, line breaks in quotes; LF or CRLF; UTF-8 with or without BOM), the
