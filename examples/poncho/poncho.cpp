@@ -8,7 +8,7 @@ namespace sdk = vitrine::sdk;
 
 // The corners of the outline, clockwise in the front photo: name, landmark of the body, partner on the other side, and
 // which way the outline turns there.
-constexpr std::array features = std::to_array<vitrine_feature>({
+constexpr auto features = std::to_array<vitrine_feature>({
     {"neck_left", "neck_left", "neck_right", VITRINE_TURN_CONVEX, 0},
     {"neck_right", "neck_right", "neck_left", VITRINE_TURN_CONVEX, 0},
     {"tip_right", nullptr, "tip_left", VITRINE_TURN_CONVEX, 0},
@@ -25,10 +25,10 @@ constexpr vitrine_pose_point flat_half[] = {
     {"hem_left", 0.020, 0.985, 0.14},
 };
 constexpr auto flat = sdk::symmetric_pose(features, flat_half);
-constexpr std::array poses = std::to_array<vitrine_pose>({{"flat", sdk::span(flat)}});
+constexpr auto poses = std::to_array<vitrine_pose>({{"flat", sdk::span(flat)}});
 
 // The outline from corner to corner, closed, and what each stretch is: sewn, open, or the neck.
-constexpr std::array edges = std::to_array<vitrine_edge>({
+constexpr auto edges = std::to_array<vitrine_edge>({
     {"neck", "neck_left", "neck_right", VITRINE_EDGE_NECK, 0},
     {"shoulder_line_right", "neck_right", "tip_right", VITRINE_EDGE_SEAM, 0},
     {"side_right", "tip_right", "hem_right", VITRINE_EDGE_OPEN, 0},
@@ -38,7 +38,7 @@ constexpr std::array edges = std::to_array<vitrine_edge>({
 });
 
 // Front to back, edge by edge.
-constexpr std::array seams = std::to_array<vitrine_seam>({
+constexpr auto seams = std::to_array<vitrine_seam>({
     {"shoulder_line_right", "shoulder_line_right", VITRINE_SIDE_FRONT, VITRINE_SIDE_BACK, 0, 0},
     {"shoulder_line_left", "shoulder_line_left", VITRINE_SIDE_FRONT, VITRINE_SIDE_BACK, 0, 0},
 });
@@ -47,12 +47,12 @@ constexpr std::array seams = std::to_array<vitrine_seam>({
 constexpr vitrine_scale_rule scale = {"tip_left", "tip_right", "bust", 2.2, "neck_left", "hem_left"};
 
 // What hangs at the height of its landmark.
-constexpr std::array anchors = std::to_array<vitrine_name>({{"neck_left"}, {"neck_right"}});
+constexpr auto anchors = std::to_array<vitrine_name>({{"neck_left"}, {"neck_right"}});
 
 // What it may be made of; the first is the default.
-constexpr std::array fabrics = {vitrine::templates::wool_twill, vitrine::templates::jersey};
+constexpr auto fabrics = std::array{vitrine::templates::wool_twill, vitrine::templates::jersey};
 
-constexpr std::array garments = std::to_array<vitrine_garment>({{
+constexpr auto garments = std::to_array<vitrine_garment>({{
     .id = "poncho",
     .title = "Poncho",
     .features = sdk::span(features),

@@ -99,7 +99,7 @@ constexpr auto sleeved_seams = sdk::join(torso_seams, skirt_seams, sleeve_seams)
 // Sleeveless dresses are cut close. And who photographs a long garment on the floor stands at its hem: its bust,
 // further from the camera, looks a tenth too small beside its length. Waist and hips make it larger where they need it.
 constexpr vitrine_scale_rule scale = torso_scale(0.92), sleeved_scale = torso_scale(1.12);
-constexpr std::array fabrics = {cotton_woven, jersey, rib_knit, satin, wool_twill, denim};
+constexpr auto fabrics = std::array{cotton_woven, jersey, rib_knit, satin, wool_twill, denim};
 
 constexpr vitrine_garment sleeveless = {.id = "dress",
                                         .title = "Sleeveless dress",

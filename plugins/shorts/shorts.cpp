@@ -59,7 +59,7 @@ constexpr std::array<vitrine_name, 2> leg_right = {{{"thigh_right"}, {"knee_righ
 constexpr auto limbs = templates::legs_limbs(sdk::span(leg_left), sdk::span(leg_right));
 
 constexpr vitrine_scale_rule scale = {"waist_left", "waist_right", "waist", 0.97, "waist_left", "hem_outer_left"};
-constexpr std::array fabrics = {templates::cotton_woven, templates::denim,      templates::wool_twill,
+constexpr auto fabrics = std::array{templates::cotton_woven, templates::denim,      templates::wool_twill,
                                 templates::jersey,       templates::sweatshirt, templates::satin};
 
 constexpr std::array<vitrine_garment, 1> garments = {{{.id = "shorts",

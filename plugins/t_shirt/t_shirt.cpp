@@ -34,7 +34,7 @@ constexpr auto edges =
     sdk::join(torso_edges_top, sleeve_edges_right, torso_edges_body, sleeve_edges_left, torso_edges_last);
 constexpr auto seams = sdk::join(torso_seams, sleeve_seams);
 constexpr vitrine_scale_rule scale = torso_scale(1.12);
-constexpr std::array fabrics = {jersey, rib_knit, cotton_woven, satin};
+constexpr auto fabrics = std::array{jersey, rib_knit, cotton_woven, satin};
 
 constexpr std::array<vitrine_garment, 1> garments = {{{.id = "t_shirt",
                                                        .title = "T-shirt",

@@ -35,6 +35,10 @@ const char* id_of(GarmentKind kind) {
       return "t_shirt";
     case GarmentKind::dress:
       return "dress";
+    case GarmentKind::trousers:
+      return "trousers";
+    case GarmentKind::shorts:
+      return "shorts";
   }
   return "";
 }

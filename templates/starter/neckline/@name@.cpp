@@ -6,7 +6,7 @@ namespace {
 namespace sdk = vitrine::sdk;
 
 // Along the neck edge: place (0 at one side of the neck, 1 at the other) and depth (1 at the lowest point).
-constexpr std::array profile = std::to_array<vitrine_profile_point>({
+constexpr auto profile = std::to_array<vitrine_profile_point>({
     {0.00, 0.00},
     {0.10, 0.45},
     {0.25, 0.80},
@@ -16,7 +16,7 @@ constexpr std::array profile = std::to_array<vitrine_profile_point>({
     {1.00, 0.00},
 });
 
-constexpr std::array necklines = std::to_array<vitrine_neckline>({{
+constexpr auto necklines = std::to_array<vitrine_neckline>({{
     .id = "@name@",
     .title = "@Title@",
     .profile = sdk::span(profile),
