@@ -39,6 +39,8 @@ constexpr double kLongHardly = 0.117, kLongSurely = 0.184, kShortEnds = 0.21, kS
 /// Sleeves stand off the body: how far their cuffs reach out beyond the line of the side seam, as the mean of both. A
 /// bite in a side makes a notch like an armpit's, but nothing that stands out.
 constexpr double kOffHardly = 0.012, kOffSurely = 0.028;
+/// Rise against what the waist's width lets expect; elastic draws a waist in by a third.
+constexpr double kRiseSurely = 1.9, kRiseHardly = 2.4;
 constexpr double kForearm = 0.25;  ///< a chain that is longer reaches past the elbow
 constexpr std::array girths = {Share{"bust", 0.56},  Share{"under_bust", 0.49}, Share{"waist", 0.47},
                                Share{"hip", 0.60},   Share{"neck_base", 0.24},  Share{"biceps", 0.19},
@@ -104,6 +106,21 @@ double stands_off(const GarmentTemplate& garment, const TemplateLimb& limb, cons
 
 }  // namespace
 
+namespace {
+/// Where legs part: a crotch lies below the waist as far as a body's does, or the notch in a hem is taken for one.
+double rise_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
+  const ScaleRule& rule = garment.scale;
+  for (const TemplateLimb& limb : garment.limbs)
+    for (const int crotch : {limb.root_a, limb.root_b}) {
+      if (garment.features[crotch].mirror != crotch) continue;
+      const double wanted = expected_drop(garment, rule.top, crotch, (at[rule.feature_a] - at[rule.feature_b]).norm());
+      const double rise = ((at[rule.feature_a] + at[rule.feature_b]) / 2 - at[crotch]).norm();
+      return wanted > 0 ? falling(rise / wanted, kRiseSurely, kRiseHardly) : 1;
+    }
+  return 1;
+}
+}  // namespace
+
 double expected_drop(const GarmentTemplate& garment, int top, int bottom, double width) {
   const auto height = [&](int f) {
     return f >= 0 && f < static_cast<int>(garment.features.size()) ? share_of(heights, garment.features[f].landmark)
@@ -160,7 +177,7 @@ double body_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
     arms = limb.chain.front().starts_with("shoulder");
   }
   if (longest < 0) return reach;
-  if (!arms) return reach * rising(longest / meant, 0.35, 0.55);
+  if (!arms) return reach * rising(longest / meant, 0.35, 0.55) * rise_reach(garment, at);
   reach *= rising(off / sleeves, kOffHardly, kOffSurely);
   return reach *
          (meant > kForearm ? rising(longest, kLongHardly, kLongSurely) : falling(longest, kShortEnds, kShortEnded));

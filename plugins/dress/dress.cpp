@@ -68,8 +68,8 @@ constexpr auto short_features = with_sleeves(short_sleeve_right, short_sleeve_le
 
 constexpr vitrine_pose_point long_spread_half[] = {
     {"neck_left", 0.375, 0.010, 0.08},       {"shoulder_left", 0.270, 0.065, 0.08},
-    {"armpit_left", 0.270, 0.350, 0.12},     {"waist_left", 0.255, 0.560, 0.12},
-    {"cuff_lower_left", 0.075, 0.570, 0.16}, {"cuff_upper_left", 0.003, 0.490, 0.16},
+    {"armpit_left", 0.270, 0.285, 0.12},     {"waist_left", 0.255, 0.480, 0.12},
+    {"cuff_lower_left", 0.075, 0.560, 0.16}, {"cuff_upper_left", 0.003, 0.480, 0.16},
     {"hem_left", 0.195, 0.980, 0.12},
 };
 constexpr auto long_spread = sdk::symmetric_pose(long_features, long_spread_half);

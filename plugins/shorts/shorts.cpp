@@ -60,7 +60,7 @@ constexpr auto limbs = templates::legs_limbs(sdk::span(leg_left), sdk::span(leg_
 
 constexpr vitrine_scale_rule scale = {"waist_left", "waist_right", "waist", 0.97, "waist_left", "hem_outer_left"};
 constexpr auto fabrics = std::array{templates::cotton_woven, templates::denim,      templates::wool_twill,
-                                templates::jersey,       templates::sweatshirt, templates::satin};
+                                    templates::jersey,       templates::sweatshirt, templates::satin};
 
 constexpr std::array<vitrine_garment, 1> garments = {{{.id = "shorts",
                                                        .title = "Shorts",

@@ -21,8 +21,8 @@ constexpr vitrine_pose_point sleeves_out_half[] = {
 constexpr auto sleeves_out = sdk::symmetric_pose(features, sleeves_out_half);
 constexpr vitrine_pose_point sleeves_down_half[] = {
     {"neck_left", 0.360, 0.003, 0.08},       {"shoulder_left", 0.150, 0.070, 0.08},
-    {"armpit_left", 0.120, 0.360, 0.12},     {"cuff_lower_left", 0.090, 0.430, 0.12},
-    {"cuff_upper_left", 0.005, 0.330, 0.12}, {"hem_left", 0.110, 0.985, 0.12},
+    {"armpit_left", 0.120, 0.360, 0.12},     {"cuff_lower_left", 0.080, 0.430, 0.12},
+    {"cuff_upper_left", 0.005, 0.280, 0.12}, {"hem_left", 0.110, 0.985, 0.12},
 };
 constexpr auto sleeves_down = sdk::symmetric_pose(features, sleeves_down_half);
 constexpr std::array<vitrine_pose, 2> poses = {{

@@ -104,12 +104,12 @@ PhotoSpec back_of(PhotoSpec front);
 /// so that property tests can make hundreds.
 PhotoSpec random_spec(std::uint32_t seed, GarmentKind garment);
 
-/// Whether the garment hangs from the waist.
-inline bool has_waist(GarmentKind garment) {
-  return garment != GarmentKind::vest && garment != GarmentKind::long_sleeve;
-}
 inline bool has_legs(GarmentKind garment) {
   return garment == GarmentKind::trousers || garment == GarmentKind::shorts;
+}
+/// Whether the garment hangs from the waist.
+inline bool has_waist(GarmentKind garment) {
+  return garment == GarmentKind::skirt || has_legs(garment);
 }
 
 /// Smallest sRGB distance between the board and a colour of the garment's border.
