@@ -7,6 +7,7 @@
 
 #include "../input/csv.hpp"
 #include "../input/text.hpp"
+#include "../report_files.hpp"
 #include "model_file.hpp"
 #include "vitrine/catalog_feed.hpp"
 
@@ -35,23 +36,6 @@ std::string percent_encoded(const std::string& path) {
     char code[4];
     std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
     out += plain ? std::string(1, c) : std::string(code);
-  }
-  return out;
-}
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      out += c;
   }
   return out;
 }
@@ -191,7 +175,7 @@ Result<Feed> make_feed(const std::string& out_dir, const FeedOptions& options) {
     feed.text =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<rss version=\"2.0\" xmlns:g=\"http://base.google.com/ns/1.0\">\n"
         "<channel>\n<title>3D models</title>\n<link>" +
-        xml_text(options.base_url) + "</link>\n<description>3D models of garments</description>\n";
+        escaped(options.base_url) + "</link>\n<description>3D models of garments</description>\n";
   else if (options.platform == FeedPlatform::google)
     feed.text = "id\tvirtual_model_link\n";
 
@@ -218,7 +202,7 @@ Result<Feed> make_feed(const std::string& out_dir, const FeedOptions& options) {
       continue;
     }
     for (const std::string& id : told.ids)
-      feed.text += xml ? "<item><g:id>" + xml_text(id) + "</g:id><g:virtual_model_link>" + xml_text(url) +
+      feed.text += xml ? "<item><g:id>" + escaped(id) + "</g:id><g:virtual_model_link>" + escaped(url) +
                              "</g:virtual_model_link></item>\n"
                        : tsv_field(id) + "\t" + tsv_field(url) + "\n";
   }

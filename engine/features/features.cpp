@@ -55,8 +55,7 @@ Error not_this_garment(const Photo& photo, const GarmentTemplate& garment, const
   Error error{Cause::unusable, "NOT_THIS_GARMENT",
               file_of(photo) + " does not look like a " + garment.id + ": " + why + ".",
               "Choose the garment type that the photo shows, or lay the garment out flat, its sleeves off its body and "
-              "its legs "
-              "apart.",
+              "its legs apart.",
               ""};
   if (better)
     error.remedy = "Choose the garment type " + better->id + ", which fits best (score " + two_digits(better->score) +

@@ -104,21 +104,16 @@ double stands_off(const GarmentTemplate& garment, const TemplateLimb& limb, cons
   return std::max({0.0, out.dot(at[limb.tip_a] - armpit), out.dot(at[limb.tip_b] - armpit)});
 }
 
-}  // namespace
-
-namespace {
 /// Where legs part: a crotch lies below the waist as far as a body's does, or the notch in a hem is taken for one.
 double rise_reach(const GarmentTemplate& garment, const std::vector<Vec2>& at) {
   const ScaleRule& rule = garment.scale;
-  for (const TemplateLimb& limb : garment.limbs)
-    for (const int crotch : {limb.root_a, limb.root_b}) {
-      if (garment.features[crotch].mirror != crotch) continue;
-      const double wanted = expected_drop(garment, rule.top, crotch, (at[rule.feature_a] - at[rule.feature_b]).norm());
-      const double rise = ((at[rule.feature_a] + at[rule.feature_b]) / 2 - at[crotch]).norm();
-      return wanted > 0 ? falling(rise / wanted, kRiseSurely, kRiseHardly) : 1;
-    }
-  return 1;
+  const int crotch = crotch_of(garment);
+  if (crotch < 0) return 1;
+  const double wanted = expected_drop(garment, rule.top, crotch, (at[rule.feature_a] - at[rule.feature_b]).norm());
+  const double rise = ((at[rule.feature_a] + at[rule.feature_b]) / 2 - at[crotch]).norm();
+  return wanted > 0 ? falling(rise / wanted, kRiseSurely, kRiseHardly) : 1;
 }
+
 }  // namespace
 
 double expected_drop(const GarmentTemplate& garment, int top, int bottom, double width) {
