@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // kill -9 at any moment, of the run or of one of its workers: the next run ends with what an undisturbed one leaves.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <nlohmann/json.hpp>
@@ -75,6 +77,16 @@ class Killed : public CatalogScratch {
   std::atomic<int>* worker = nullptr;
 };
 
+/// A process' state as the kernel tells it; empty when it has ended, which it may do while it is being read.
+std::string stat_of(pid_t process) {
+  std::string stat(512, '\0');
+  const int file = ::open(("/proc/" + std::to_string(process) + "/stat").c_str(), O_RDONLY | O_CLOEXEC);
+  const ssize_t size = file < 0 ? -1 : ::read(file, stat.data(), stat.size());
+  if (file >= 0) ::close(file);
+  stat.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  return stat;
+}
+
 TEST_F(Killed, at_200_moments_the_next_run_leaves_the_same_bytes_as_one_that_was_never_disturbed) {
   const timespec begin = [] {
     timespec t;
@@ -110,7 +122,7 @@ TEST_F(Killed, at_200_moments_the_next_run_leaves_the_same_bytes_as_one_that_was
     if (kill_worker) {
       // A number may have been given to another process by now: only a child of the run is ours to kill.
       const pid_t victim = *worker;
-      const std::string stat = victim > 0 ? read("/proc/" + std::to_string(victim) + "/stat") : "";
+      const std::string stat = victim > 0 ? stat_of(victim) : "";
       if (stat.find(") R " + std::to_string(runner) + " ") != std::string::npos ||
           stat.find(") S " + std::to_string(runner) + " ") != std::string::npos ||
           stat.find(") D " + std::to_string(runner) + " ") != std::string::npos)
