@@ -30,13 +30,16 @@ struct Match {
 };
 
 /// The first text that a rule matches decides: what the shop files the product under comes before what it calls it.
+/// What a rule wants besides may stand in any of the texts: a type says "Dresses", the title how long the sleeves are.
 Match match(const std::vector<TextRule>& rules, std::initializer_list<Text> texts, const std::string& garment) {
   for (const Text& text : texts) {
     if (text.text.empty()) continue;
     for (const TextRule& rule : rules)
       if ((rule.garments.empty() || garment.empty() ||
            std::find(rule.garments.begin(), rule.garments.end(), garment) != rule.garments.end()) &&
-          found_in(rule.match, text.text))
+          found_in(rule.match, text.text) &&
+          (!rule.with || std::any_of(texts.begin(), texts.end(),
+                                     [&](const Text& other) { return found_in(rule.with, other.text); })))
         return {&rule, rule.name + " in " + text.name};
   }
   return {};

@@ -159,11 +159,14 @@ class RulesReader {
   std::vector<TextRule> text_rules(const json& value, const std::string& key, const char* what) const {
     std::vector<TextRule> rules;
     for (const json& entry : list(value, key)) {
-      check_keys(entry, key, {"name", "match", what, "garments"});
+      // Only garments are looked for in one text and told apart by another.
+      const bool garment = key == "garments";
+      check_keys(entry, key, {"name", "match", what, garment ? "with" : "garments"});
       if (!entry.contains("match") || !entry.contains(what))
         refuse(key, std::string("a rule needs \"match\" and \"") + what + "\"", "Write both.");
       TextRule rule;
       rule.match = pattern(text(entry["match"], key), key);
+      if (entry.contains("with")) rule.with = pattern(text(entry["with"], key), key);
       rule.value = text(entry[what], key);
       if (has_control(rule.value) || rule.value.size() > 200) refuse(key, "the name is not usable", "Shorten it.");
       if (entry.contains("garments")) rule.garments = texts(entry["garments"], key);

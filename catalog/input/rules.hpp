@@ -35,6 +35,7 @@ struct PictureRule {
 struct TextRule {
   std::string name;
   Pattern match;
+  Pattern with;                       ///< of a garment, may be missing: found in any of the texts as well
   std::string value;                  ///< empty for a garment: the product is left out
   std::vector<std::string> garments;  ///< only of these; empty = of all
 };

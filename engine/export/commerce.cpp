@@ -13,7 +13,27 @@
 #include "gltf.hpp"
 
 namespace vitrine {
+
+struct CommerceMemory::Held {
+  struct Charts {
+    std::vector<Vec2> uv;
+    std::vector<Triangle> triangles;
+    std::shared_ptr<const Image> texture;
+    UvFigures figures;
+  };
+  struct Picture {
+    std::vector<unsigned char> encoded;
+    std::shared_ptr<const Image> decoded;
+  };
+  std::vector<Picture> pictures;
+  std::vector<Charts> charts;
+};
+
+CommerceMemory::CommerceMemory() : held_(std::make_shared<Held>()) {}
+
 namespace {
+
+using Memory = CommerceMemory::Held;
 
 constexpr double kMegabyte = 1024.0 * 1024.0;
 const char* const kAll = "khronos, shopify, google, apple";
@@ -29,7 +49,7 @@ struct Part {
   std::vector<Vec3> positions, normals;
   std::vector<Vec2> uv;
   std::vector<Triangle> triangles;
-  Image texture;
+  std::shared_ptr<const Image> texture;
 };
 
 template <class V>
@@ -86,6 +106,21 @@ Image decode(const tinygltf::Image& image) {
   return out;
 }
 
+std::shared_ptr<const Image> decode(const tinygltf::Image& image, Memory& memory) {
+  for (const Memory::Picture& known : memory.pictures)
+    if (known.encoded == image.image) return known.decoded;
+  memory.pictures.push_back({image.image, std::make_shared<const Image>(decode(image))});
+  return memory.pictures.back().decoded;
+}
+
+const UvFigures& measure(Part& part, Memory& memory) {
+  for (const Memory::Charts& known : memory.charts)
+    if (known.texture == part.texture && known.uv == part.uv && known.triangles == part.triangles) return known.figures;
+  const UvFigures figures = measure_uv(part.uv, part.triangles, *part.texture);
+  memory.charts.push_back({std::move(part.uv), std::move(part.triangles), part.texture, figures});
+  return memory.charts.back().figures;
+}
+
 bool good_name(const std::string& name) {
   if (name.empty() || name[0] < 'a' || name[0] > 'z') return false;
   return std::all_of(name.begin(), name.end(),
@@ -125,12 +160,13 @@ void check_names(const tinygltf::Model& m, Findings& f) {
   f.holds("names", bad.empty(), bad.empty() ? "all good" : bad, "[a-z][a-z0-9_-]*", "khronos");
 }
 
-void check_textures(const tinygltf::Model& m, const std::vector<Image>& pictures, Findings& f) {
+void check_textures(const tinygltf::Model& m, const std::vector<std::shared_ptr<const Image>>& pictures,
+                    Findings& f) {
   if (pictures.empty()) return;
   int largest = 0, smallest = 1 << 30;
   bool power = true, jpeg = true;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const int w = pictures[i].width, h = pictures[i].height;
+    const int w = pictures[i]->width, h = pictures[i]->height;
     largest = std::max({largest, w, h});
     power = power && w > 0 && h > 0 && std::has_single_bit(static_cast<unsigned>(w)) &&
             std::has_single_bit(static_cast<unsigned>(h));
@@ -140,7 +176,7 @@ void check_textures(const tinygltf::Model& m, const std::vector<Image>& pictures
   for (const tinygltf::Material& material : m.materials) {
     const int texture = material.pbrMetallicRoughness.baseColorTexture.index;
     if (texture < 0) continue;
-    const Image& p = pictures.at(m.textures.at(texture).source);
+    const Image& p = *pictures.at(m.textures.at(texture).source);
     smallest = std::min({smallest, p.width, p.height});
   }
   f.at_most("texture_side_px", largest, 2048, 4096, "2048 (4096 at most)", kAll);
@@ -150,14 +186,15 @@ void check_textures(const tinygltf::Model& m, const std::vector<Image>& pictures
   f.holds("texture_format", jpeg, jpeg ? "jpeg" : "other", "jpeg", "khronos, shopify", Verdict::warn);
 }
 
-void check_uvs(const std::vector<Part>& parts, Findings& f) {
-  for (const Part& part : parts) {
-    if (part.texture.empty()) continue;
-    const UvFigures u = measure_uv(part.uv, part.triangles, part.texture);
+/// Takes the parts' charts with it.
+void check_uvs(std::vector<Part>& parts, Memory& memory, Findings& f) {
+  for (Part& part : parts) {
+    if (!part.texture) continue;
+    const UvFigures u = measure(part, memory);
     f.holds("uv_range", u.low >= 0 && u.high <= 1, number(u.low, 3) + " to " + number(u.high, 3), "0 to 1", "khronos");
     f.at_most("uv_overlap_share", u.overlap_share, 0, 0, "0", "khronos, shopify", 4);
     f.at_most("uv_inverted_triangles", u.inverted, 0, 0, "0", "khronos");
-    const int wanted = static_cast<int>(std::lround(8.0 * std::max(part.texture.width, part.texture.height) / 1024.0));
+    const int wanted = static_cast<int>(std::lround(8.0 * std::max(part.texture->width, part.texture->height) / 1024.0));
     f.holds("uv_gutter_px", u.gutter >= wanted, number(u.gutter), "8 at 1024", "khronos", Verdict::warn);
     // White or black cloth breaks this by nature.
     f.holds("colour_bright_share", u.bright_share <= 0.01, number(u.bright_share, 4), "0.01 above 243", "khronos",
@@ -200,7 +237,8 @@ void check_shape(const tinygltf::Model& m, const std::vector<Part>& parts, const
 
 }  // namespace
 
-Result<std::vector<CommerceFinding>> check_commerce(std::span<const std::uint8_t> glb, const CommerceScale& scale) {
+Result<std::vector<CommerceFinding>> check_commerce(std::span<const std::uint8_t> glb, const CommerceScale& scale,
+                                                    CommerceMemory* memory) {
   const auto broken = [](const std::string& what) {
     return Error{Cause::unusable, "NOT_A_GLB", "The GLB cannot be checked: " + what + ".",
                  "Check a file that this program wrote, without --compress.", "export"};
@@ -219,10 +257,12 @@ Result<std::vector<CommerceFinding>> check_commerce(std::span<const std::uint8_t
     std::string error, warning;
     if (!reader.LoadBinaryFromMemory(&m, &error, &warning, glb.data(), static_cast<unsigned>(glb.size())))
       return broken(error.empty() ? "it does not parse" : error);
-    std::vector<Image> pictures;
+    CommerceMemory own;
+    Memory& known = (memory != nullptr ? *memory : own).held();
+    std::vector<std::shared_ptr<const Image>> pictures;
     for (const tinygltf::Image& image : m.images) {
-      pictures.push_back(decode(image));
-      if (pictures.back().empty()) return broken("a picture in it cannot be decoded");
+      pictures.push_back(decode(image, known));
+      if (pictures.back()->empty()) return broken("a picture in it cannot be decoded");
     }
     std::vector<Part> parts;
     std::size_t triangles = 0;
@@ -249,7 +289,7 @@ Result<std::vector<CommerceFinding>> check_commerce(std::span<const std::uint8_t
               "khronos, shopify");
     f.at_most("nodes", static_cast<double>(m.nodes.size()), 5, 20, "5", "khronos");
     check_textures(m, pictures, f);
-    check_uvs(parts, f);
+    check_uvs(parts, known, f);
     check_names(m, f);
     check_shape(m, parts, scale, f);
     return f.list;

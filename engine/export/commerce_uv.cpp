@@ -2,8 +2,11 @@
 #include "commerce_uv.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace vitrine {
 namespace {
@@ -55,42 +58,49 @@ void each_texel(const std::array<Vec2, 3>& p, int width, int height, F&& visit) 
       bool inside = true;
       for (const Edge& e : edges) {
         const double side = e.way.x() * (y + 0.5 - e.a.y()) - e.way.y() * (x + 0.5 - e.a.x());
-        inside = inside && (e.turned ? side <= 0 : side > 0);
+        inside &= e.turned ? side <= 0 : side > 0;
       }
       if (inside) visit(x, y);
     }
 }
 
 /// Least distance [px, whole] at which texels of two charts, or of a chart and the border, come together.
-int find_gutter(const std::vector<int>& chart, int width, int height) {
-  // Breadth first from all charts at once; where two fronts meet, their steps add up.
-  std::vector<int> owner = chart, step(chart.size(), 0), front;
+int find_gutter(std::vector<int> owner, int width, int height) {
+  // Breadth first from the rims of all charts at once; where two fronts meet, their steps add up.
+  constexpr std::array<std::pair<int, int>, 4> around{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  std::vector<std::uint8_t> step(owner.size(), 0);
+  std::vector<int> front, next;
   int least = 2 * kLargestGutter;
-  for (int i = 0; i < static_cast<int>(chart.size()); ++i)
-    if (chart[i] >= 0) {
-      const int x = i % width, y = i / width;
-      least = std::min(least, std::min(std::min(x, width - 1 - x), std::min(y, height - 1 - y)));
-      front.push_back(i);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int i = y * width + x, own = owner[i];
+      if (own < 0) continue;
+      const int border = std::min(std::min(x, width - 1 - x), std::min(y, height - 1 - y));
+      least = std::min(least, border);
+      // What lies among its own has nothing to meet.
+      if (border == 0 || owner[i - 1] != own || owner[i + 1] != own || owner[i - width] != own ||
+          owner[i + width] != own)
+        front.push_back(i);
     }
   // Fronts that have not met after so many steps are no closer than twice as many.
   for (int distance = 1; !front.empty() && 2 * (distance - 1) < least; ++distance) {
-    std::vector<int> next;
+    next.clear();
     for (const int i : front) {
       const int x = i % width, y = i / width;
-      for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+      for (const auto& [dx, dy] : around) {
         const int u = x + dx, v = y + dy;
         if (u < 0 || v < 0 || u >= width || v >= height) continue;
         const int n = v * width + u;
         if (owner[n] < 0) {
           owner[n] = owner[i];
-          step[n] = distance;
+          step[n] = static_cast<std::uint8_t>(distance);
           next.push_back(n);
         } else if (owner[n] != owner[i]) {
           least = std::min(least, step[n] + step[i]);
         }
       }
     }
-    front = std::move(next);
+    std::swap(front, next);
   }
   return least;
 }
@@ -145,7 +155,7 @@ UvFigures measure_uv(const std::vector<Vec2>& uv, const std::vector<Triangle>& t
   for (const Triangle& t : triangles) roots.push_back(charts.of(t[0]));
   std::sort(roots.begin(), roots.end());
   f.charts = static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
-  f.gutter = find_gutter(owner, width, height);
+  f.gutter = find_gutter(std::move(owner), width, height);
   return f;
 }
 

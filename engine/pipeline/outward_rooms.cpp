@@ -93,8 +93,9 @@ Rooms::Step Rooms::write_glb() {
 Rooms::Step Rooms::check_for_shops() {
   const SubjectBox body = box_of(request_.body->mannequin.mesh);
   const CommerceScale scale{body.low, body.high};
-  if (auto e = keep(check_commerce(item_.garment_glb, scale), item_.garment_check)) return e;
-  return keep(check_commerce(item_.dressed_glb, scale), item_.dressed_check);
+  CommerceMemory memory;  // both files hold the garment
+  if (auto e = keep(check_commerce(item_.garment_glb, scale, &memory), item_.garment_check)) return e;
+  return keep(check_commerce(item_.dressed_glb, scale, &memory), item_.dressed_check);
 }
 
 Rooms::Step Rooms::take_pictures() {

@@ -148,4 +148,21 @@ bool Tracer::blocked(const Vec3& from, const Vec3& direction, double reach) cons
   return ray.tfar < 0;  // Embree's sign for "something is in the way"
 }
 
+std::array<bool, 4> Tracer::blocked(const Vec3& from, const std::array<Vec3, 4>& directions,
+                                    const std::array<double, 4>& reach) const {
+  RTCRay4 rays{};
+  set_rays(rays, from, directions);
+  alignas(16) int valid[4];
+  for (int i = 0; i < 4; ++i) {
+    rays.tfar[i] = static_cast<float>(reach[i]);
+    valid[i] = reach[i] < 0 ? 0 : -1;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded4(valid, scene_->scene, &context, &rays);
+  std::array<bool, 4> in_the_way{};
+  for (int i = 0; i < 4; ++i) in_the_way[i] = valid[i] != 0 && rays.tfar[i] < 0;
+  return in_the_way;
+}
+
 }  // namespace vitrine

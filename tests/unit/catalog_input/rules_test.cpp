@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tuple>
+
 #include "inputs.hpp"
 
 using ::testing::ElementsAre;
@@ -89,6 +91,78 @@ TEST_F(Rules, a_rules_file_replaces_the_keys_it_has) {
   EXPECT_EQ(input.plan[0].garment_rule, "all in title");
 }
 
+TEST_F(Rules, each_garment_is_found_in_the_words_that_shops_use_for_it) {
+  // {type, title, garment}; empty: left out.
+  const std::tuple<const char*, const char*, const char*> products[] = {
+      {"Dresses", "Olive dress", "dress"},
+      {"Dresses", "Olive dress, short sleeves", "dress_short_sleeve"},
+      {"Dresses", "Long-sleeved olive dress", "dress_long_sleeve"},
+      {"", "T-shirt dress in navy", "dress_short_sleeve"},
+      {"", "Linen sundress", "dress"},
+      {"", "Dress with a pleated skirt", "dress"},
+      {"", "Dress pants, charcoal", "trousers"},
+      {"", "Dress shirt, white", ""},
+      {"", "Dress shoes", ""},
+      {"", "Address book", ""},
+      {"T-shirts", "Heavy tee", "t_shirt"},
+      {"T-shirts", "Heavy tee, long sleeves", "long_sleeve"},
+      {"T-shirts", "Ribbed tank top", "vest"},
+      {"Tops & T-shirts", "Ribbed tank", "vest"},
+      {"", "Short sleeve top", "t_shirt"},
+      {"Sweaters", "Short-sleeved sweater", "t_shirt"},
+      {"Sweaters", "Sweater vest", "vest"},
+      {"Sweaters", "Fog", "long_sleeve"},
+      {"", "Long sleeve top", "long_sleeve"},
+      {"Jeans", "Straight leg", "trousers"},
+      {"", "Wide-leg pants", "trousers"},
+      {"", "Denim shorts", "shorts"},
+      {"Bottoms", "Bermuda shorts, short sleeve not included", "shorts"},
+      {"", "Jean jacket", ""},
+      {"", "Denim skirt", "skirt"},
+      {"", "Hooded jumpsuit", ""},
+      {"", "Mug", ""},
+  };
+  for (const auto& [type, title, garment] : products) {
+    const auto input = get(write("s.csv", std::string("Handle,Title,Type,Image Src\nx,\"") + title + "\",\"" + type +
+                                              "\",x_front.jpg\nx,,,x_back.jpg\n"));
+    EXPECT_EQ(input.items.empty() ? "" : input.items[0].garment, garment) << type << ": " << title;
+  }
+}
+
+TEST_F(Rules, google_categories_by_number_are_garments) {
+  for (const auto& [category, garment] :
+       {std::pair{"2271", "dress"}, {"1581", "skirt"}, {"204", "trousers"}, {"207", "shorts"}}) {
+    const auto input = get(write("g.tsv", std::string("id\ttitle\timage_link\tadditional_image_link\t"
+                                                      "google_product_category\n1\tOlive\ta_front.jpg\ta_back.jpg\t") +
+                                              category + "\n"));
+    ASSERT_EQ(input.items.size(), 1u) << category;
+    EXPECT_EQ(input.items[0].garment, garment);
+  }
+}
+
+TEST_F(Rules, a_boat_neck_and_a_fabric_are_read_for_the_garments_that_have_them) {
+  const auto input = get(write("s.csv",
+                               "Handle,Title,Type,Image Src\na,Bateau neck dress in tweed,Dresses,a_front.jpg\n"
+                               "a,,,a_back.jpg\nb,\"Slim jeans, boat neck bag\",Jeans,b_front.jpg\nb,,,b_back.jpg\n"));
+  EXPECT_EQ(item(input, "a").neckline, "neck_boat");
+  EXPECT_EQ(item(input, "a").fabric, "wool_twill");
+  EXPECT_EQ(item(input, "b").fabric, "denim");
+  EXPECT_EQ(item(input, "b").neckline, vitrine::CatalogItem{}.neckline) << "trousers have no neckline";
+}
+
+TEST_F(Rules, a_garment_may_want_a_word_in_any_of_the_texts) {
+  const auto options = rules(R"({"garments": [
+    {"name": "knee", "match": "gown", "with": "knee", "garment": "dress"},
+    {"name": "long", "match": "gown", "garment": ""}]})");
+  const std::string feed = write("s.csv",
+                                 "Handle,Title,Type,Image Src\na,Knee length,Gowns,a_front.jpg\na,,,a_back.jpg\n"
+                                 "b,To the floor,Gowns,b_front.jpg\nb,,,b_back.jpg\n");
+  const auto input = get(feed, options);
+  EXPECT_EQ(item(input, "a").garment, "dress");
+  EXPECT_EQ(input.items.size(), 1u);
+  EXPECT_THAT(input.left_out.at(0).reason, HasSubstr("by rule long"));
+}
+
 TEST_F(Rules, products_without_a_garment_are_refused_or_given_one_as_the_rules_say) {
   const std::string feed = write("s.csv", "Handle,Title,Image Src\na,Thing,a_front.jpg\na,,a_back.jpg\n");
   EXPECT_EQ(get(feed).left_out.size(), 1u);
@@ -124,6 +198,9 @@ TEST_F(Rules, a_mistake_in_the_rules_names_its_key_and_the_way_out) {
                                     {"{\"pictures\": [[{\"file\": \"a\", \"is\": \"left\"}]]}", "left"},
                                     {"{\"pictures\": [[{\"position\": 0, \"is\": \"front\"}]]}", "position"},
                                     {"{\"garments\": [{\"match\": \"a\"}]}", "\"garments\""},
+                                    {"{\"garments\": [{\"match\": \"a\", \"with\": \"(\", \"garment\": \"\"}]}",
+                                     "regular expression"},
+                                    {"{\"fabrics\": [{\"match\": \"a\", \"with\": \"b\", \"fabric\": \"c\"}]}", "with"},
                                     {"{\"measures\": [{\"is\": \"hip_cm\", \"match\": \"(a)\"}]}", "\"measures\""},
                                     {"{\"measures\": [{\"is\": \"chest_cm\", \"match\": \"a\"}]}", "group"},
                                     {"{\"no_back\": \"maybe\"}", "\"no_back\""},

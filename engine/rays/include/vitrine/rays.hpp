@@ -32,6 +32,9 @@ class Tracer {
   static Result<Tracer> build(std::span<const RenderMesh> meshes);
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& direction) const;
   bool blocked(const Vec3& from, const Vec3& direction, double reach) const;
+  /// Which of four rays from one point something is in the way of within its reach [m]. A ray of reach < 0 is none.
+  std::array<bool, 4> blocked(const Vec3& from, const std::array<Vec3, 4>& directions,
+                              const std::array<double, 4>& reach) const;
   /// Four rays from one point that go much the same way, at the price of about one and a half.
   std::array<std::optional<Hit>, 4> first_hits(const Vec3& from, const std::array<Vec3, 4>& directions) const;
 
