@@ -24,19 +24,21 @@ void close_notches(cv::Mat& mask) {
   const int reach = std::max(1, static_cast<int>(0.028 * diagonal));
   cv::Mat padded;
   const int rim = reach + 2;
-  cv::copyMakeBorder(mask, padded, rim, rim, rim, rim, cv::BORDER_CONSTANT, 0);
+  // Of the picture only the garment's box is looked at.
+  cv::Mat part = mask(box);
+  cv::copyMakeBorder(part, padded, rim, rim, rim, rim, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED, 0);
   // Closing by a disc, as two distances: a kernel of this size would cost a hundred times more.
   cv::Mat distance;
   cv::distanceTransform(padded == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   cv::distanceTransform(distance <= reach, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   padded = distance > reach;
-  const cv::Mat closed = padded(cv::Rect(rim, rim, mask.cols, mask.rows)) & ~mask;
+  const cv::Mat closed = padded(cv::Rect(rim, rim, part.cols, part.rows)) & ~part;
   cv::Mat pieces, stats, centres;
   const int count = cv::connectedComponentsWithStats(closed, pieces, stats, centres, 8);
   for (int i = 1; i < count; ++i) {
     const double extent = std::max(stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    const bool at_waist = centres.at<double>(i, 1) < box.y + kWaist * box.height;
-    if (at_waist && extent < kLongestNotch * diagonal) mask.setTo(255, pieces == i);
+    const bool at_waist = centres.at<double>(i, 1) < kWaist * box.height;
+    if (at_waist && extent < kLongestNotch * diagonal) part.setTo(255, pieces == i);
   }
 }
 

@@ -150,21 +150,25 @@ std::vector<Vec2> smooth_closed(const std::vector<Vec2>& points, double sigma, c
 }
 
 cv::Mat clean_mask(const cv::Mat& mask, int hair) {
-  cv::Mat binary = mask != 0;
+  cv::Mat whole = cv::Mat::zeros(mask.size(), CV_8U);
+  // Beyond the mask's box there is nothing to clean.
+  const cv::Rect box = cv::boundingRect(mask);
+  if (box.empty()) return whole;
+  cv::Mat binary = mask(box) != 0;
   if (hair > 0) {
     const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * hair + 1, 2 * hair + 1});
     // A border of background lets the opening treat a garment at the frame like one in the middle.
     cv::Mat padded;
     cv::copyMakeBorder(binary, padded, hair, hair, hair, hair, cv::BORDER_CONSTANT, 0);
     cv::morphologyEx(padded, padded, cv::MORPH_OPEN, kernel);
-    binary = padded(cv::Rect(hair, hair, mask.cols, mask.rows)).clone();
+    binary = padded(cv::Rect(hair, hair, box.width, box.height)).clone();
   }
   cv::Mat labels, stats, centres;
   const int count = cv::connectedComponentsWithStats(binary, labels, stats, centres, 4);
   int best = 0;
   for (int i = 1; i < count; ++i)
     if (best == 0 || stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(best, cv::CC_STAT_AREA)) best = i;
-  if (best == 0) return cv::Mat::zeros(mask.size(), CV_8U);
+  if (best == 0) return whole;
   cv::Mat piece = labels == best;
   // Two pixels that meet at a corner only: the outline would touch itself there, and a gap one pixel wide would close.
   for (int y = 0; y + 1 < piece.rows; ++y) {
@@ -177,7 +181,8 @@ cv::Mat clean_mask(const cv::Mat& mask, int hair) {
         b[x] = 0;
     }
   }
-  return piece;
+  piece.copyTo(whole(box));
+  return whole;
 }
 
 Outline trace_outline(const cv::Mat& mask, const FeatureOptions& options) {

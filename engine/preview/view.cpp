@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lights.hpp"
 #include "vitrine/sampling.hpp"
@@ -76,11 +78,19 @@ class View {
   void draw(Image& picture, int left) {
     look_at_light();
     look_at_floor();
-    const Sequence places(0, 0, 0);  // the same places in every pixel keep edges even
+    std::optional<std::array<std::uint8_t, 4>> known;  // the bare backdrop, which is most of a picture
+    const Sequence places(0, 0, 0);                    // the same places in every pixel keep edges even
     for (int y = 0; y < options_.view_height; ++y)
       for (int x = 0; x < options_.view_width; ++x) {
         Eigen::Vector4f sum = Eigen::Vector4f::Zero();  // premultiplied
-        if (empty_around(x, y)) {
+        std::uint8_t* out = picture.at(left + x, y);
+        const bool empty = empty_around(x, y);
+        const bool plain = empty && floor_shadow(x + 0.5, y + 0.5) == 0.0F;
+        if (plain && known) {
+          std::copy(known->begin(), known->begin() + picture.channels, out);
+          continue;
+        }
+        if (empty) {
           sum = static_cast<float>(options_.samples) * ground(x + 0.5, y + 0.5);
         } else {
           for (int s = 0; s < options_.samples; s += 4) {
@@ -96,11 +106,14 @@ class View {
           }
         }
         sum /= static_cast<float>(options_.samples);
-        std::uint8_t* out = picture.at(left + x, y);
         const bool alpha = picture.channels == 4;
         const float cover = alpha ? sum[3] : 1.0F;
         for (int c = 0; c < 3; ++c) out[c] = cover > 1e-4F ? linear_to_srgb(sum[c] / cover) : std::uint8_t{0};
         if (alpha) out[3] = static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(cover, 0.0F, 1.0F)));
+        if (plain) {
+          known.emplace();
+          std::copy(out, out + picture.channels, known->begin());
+        }
       }
   }
 

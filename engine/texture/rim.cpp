@@ -94,22 +94,32 @@ struct Likeness {
   double difference = 1e9;  ///< [-] sRGB; as large as this where there are no sources
   cv::Vec3f colour;
 };
-Likeness most_alike(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, int reach) {
-  const cv::Vec3f own(rgb.at<cv::Vec3b>(y, x));
-  Likeness best;
-  for (int v = std::max(0, y - reach); v <= std::min(rgb.rows - 1, y + reach); ++v)
-    for (int u = std::max(0, x - reach); u <= std::min(rgb.cols - 1, x + reach); ++u) {
-      if (!sources.at<uchar>(v, u)) continue;
-      const cv::Vec3f other(rgb.at<cv::Vec3b>(v, u));
-      const double difference = cv::norm(other - own);
-      if (difference < best.difference) best = {difference, other};
+/// `enough`: a difference that settles the question; what is still more alike is not looked for.
+Likeness most_alike(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, int reach, double enough) {
+  const cv::Vec3b& own = rgb.at<cv::Vec3b>(y, x);
+  const cv::Vec3b* colour = nullptr;
+  const int settled = static_cast<int>(enough * enough);
+  int best = 3 * 255 * 255 + 1;
+  const int left = std::max(0, x - reach), right = std::min(rgb.cols - 1, x + reach);
+  for (int v = std::max(0, y - reach); v <= std::min(rgb.rows - 1, y + reach) && best > settled; ++v) {
+    const uchar* from = sources.ptr<uchar>(v);
+    const cv::Vec3b* row = rgb.ptr<cv::Vec3b>(v);
+    for (int u = left; u <= right; ++u) {
+      if (!from[u]) continue;
+      const int r = row[u][0] - own[0], g = row[u][1] - own[1], b = row[u][2] - own[2];
+      const int squares = r * r + g * g + b * b;
+      if (squares >= best) continue;
+      best = squares;
+      colour = &row[u];
     }
-  return best;
+  }
+  if (colour == nullptr) return {};
+  return {std::sqrt(static_cast<double>(best)), cv::Vec3f(*colour)};
 }
 
 /// Whether none of the garment's own pixels around has such a colour, and the one most like it lies towards the board.
 bool is_strange(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, const cv::Vec3f& board) {
-  const Likeness like = most_alike(rgb, sources, x, y, kAround);
+  const Likeness like = most_alike(rgb, sources, x, y, kAround, kStrange);
   const cv::Vec3f own(rgb.at<cv::Vec3b>(y, x));
   return like.difference < 1e9 && like.difference > kStrange && (own - like.colour).dot(board - like.colour) > 0;
 }
@@ -119,15 +129,18 @@ bool is_strange(const cv::Mat& rgb, const cv::Mat& sources, int x, int y, const 
 cv::Mat nearest_pixel(const cv::Mat& seeds, cv::Mat& distance) {
   cv::Mat labels, inverse = seeds == 0;
   cv::distanceTransform(inverse, distance, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
-  int highest = 0;
-  for (int y = 0; y < labels.rows; ++y)
-    for (int x = 0; x < labels.cols; ++x) highest = std::max(highest, labels.at<int>(y, x));
-  std::vector<int> pixel(static_cast<std::size_t>(highest) + 1, -1);
-  for (int y = 0; y < labels.rows; ++y)
+  // A label's own pixel is the seed at which it was given out.
+  std::vector<int> pixel(static_cast<std::size_t>(cv::countNonZero(seeds)) + 1, -1);
+  for (int y = 0; y < labels.rows; ++y) {
+    const int* label = labels.ptr<int>(y);
+    const uchar* seed = seeds.ptr<uchar>(y);
     for (int x = 0; x < labels.cols; ++x)
-      if (seeds.at<uchar>(y, x)) pixel[labels.at<int>(y, x)] = y * labels.cols + x;
-  for (int y = 0; y < labels.rows; ++y)
-    for (int x = 0; x < labels.cols; ++x) labels.at<int>(y, x) = pixel[labels.at<int>(y, x)];
+      if (seed[x]) pixel.at(static_cast<std::size_t>(label[x])) = y * labels.cols + x;
+  }
+  for (int y = 0; y < labels.rows; ++y) {
+    int* label = labels.ptr<int>(y);
+    for (int x = 0; x < labels.cols; ++x) label[x] = pixel.at(static_cast<std::size_t>(label[x]));
+  }
   return labels;
 }
 
@@ -167,7 +180,7 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
     if (const int far = deepest.at<int>(y, x); far >= 0 && far != index) {
       const cv::Vec3f cloth(pixel_at(rgb, far));
       if (is_mixture(own, cloth, cloth, ground, kMostlyBoard) &&
-          most_alike(rgb, certain, x, y, static_cast<int>(kDeepRim) + 3).difference > kStrange)
+          most_alike(rgb, certain, x, y, static_cast<int>(kDeepRim) + 3, kStrange).difference > kStrange)
         keep.at<uchar>(y, x) = 0;
     }
     if (d > kRim) continue;
@@ -181,7 +194,7 @@ void drop_rim(const cv::Mat& rgb, const cv::Mat& depth, const cv::Mat& off, cv::
       if (cv::norm(other - base) > kOther) mixed = is_mixture(own, base, other, ground);
     }
     // A stripe of a colour between cloth and board is no mixture: it goes on further in.
-    if (mixed) mixed = most_alike(rgb, clearly, x, y, static_cast<int>(kClear) + 2).difference > kUnlike;
+    if (mixed) mixed = most_alike(rgb, clearly, x, y, static_cast<int>(kClear) + 2, kUnlike).difference > kUnlike;
     if (!mixed && d <= kShadowRim) mixed = is_strange(rgb, sources, x, y, ground);
     if (mixed) keep.at<uchar>(y, x) = 0;
   }
