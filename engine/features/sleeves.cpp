@@ -27,8 +27,9 @@ struct Hole {
 };
 
 std::vector<Hole> find_holes(const cv::Mat& mask, const cv::Rect& box, double area, double diagonal) {
-  // Holes lie within the garment's box.
-  cv::Mat background = mask(box) == 0;
+  // Holes lie among the mask's pixels.
+  const cv::Rect part = cv::boundingRect(mask);
+  cv::Mat background = mask(part) == 0;
   cv::Mat padded;
   cv::copyMakeBorder(background, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 255);
   cv::Mat labels, stats, centres;
@@ -42,9 +43,9 @@ std::vector<Hole> find_holes(const cv::Mat& mask, const cv::Rect& box, double ar
       continue;
     Hole hole;
     hole.mask = cv::Mat::zeros(mask.size(), CV_8U);
-    cv::Mat(labels == i)(cv::Rect(1, 1, box.width, box.height)).copyTo(hole.mask(box));
+    cv::Mat(labels == i)(cv::Rect(1, 1, part.width, part.height)).copyTo(hole.mask(part));
     hole.box = cv::boundingRect(hole.mask);
-    hole.centre = Vec2(box.x + centres.at<double>(i, 0) - 1, box.y + centres.at<double>(i, 1) - 1);
+    hole.centre = Vec2(part.x + centres.at<double>(i, 0) - 1, part.y + centres.at<double>(i, 1) - 1);
     int bottom_left = -1, bottom_right = -1;
     const int last = hole.box.br().y - 1;
     for (int x = hole.box.x; x < hole.box.br().x; ++x) {
