@@ -60,8 +60,8 @@ void set_limits(const CatalogOptions& options) {
   }
 }
 
-/// Pictures come and go by the hundred: memory that an item has once touched is given back when its process ends. Handing
-/// it back in between costs a page fault for each 4 KB of the next picture, a twentieth of an item in all.
+/// Pictures come and go by the hundred: memory that an item has once touched is given back when its process ends.
+/// Handing it back in between costs a page fault for each 4 KB of the next picture, a twentieth of an item in all.
 void keep_memory() {
   ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
   ::mallopt(M_TRIM_THRESHOLD, 1 << 30);

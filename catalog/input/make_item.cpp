@@ -38,8 +38,8 @@ Match match(const std::vector<TextRule>& rules, std::initializer_list<Text> text
       if ((rule.garments.empty() || garment.empty() ||
            std::find(rule.garments.begin(), rule.garments.end(), garment) != rule.garments.end()) &&
           found_in(rule.match, text.text) &&
-          (!rule.with || std::any_of(texts.begin(), texts.end(),
-                                     [&](const Text& other) { return found_in(rule.with, other.text); })))
+          (!rule.with ||
+           std::any_of(texts.begin(), texts.end(), [&](const Text& other) { return found_in(rule.with, other.text); })))
         return {&rule, rule.name + " in " + text.name};
   }
   return {};

@@ -160,8 +160,7 @@ void check_names(const tinygltf::Model& m, Findings& f) {
   f.holds("names", bad.empty(), bad.empty() ? "all good" : bad, "[a-z][a-z0-9_-]*", "khronos");
 }
 
-void check_textures(const tinygltf::Model& m, const std::vector<std::shared_ptr<const Image>>& pictures,
-                    Findings& f) {
+void check_textures(const tinygltf::Model& m, const std::vector<std::shared_ptr<const Image>>& pictures, Findings& f) {
   if (pictures.empty()) return;
   int largest = 0, smallest = 1 << 30;
   bool power = true, jpeg = true;
@@ -194,7 +193,8 @@ void check_uvs(std::vector<Part>& parts, Memory& memory, Findings& f) {
     f.holds("uv_range", u.low >= 0 && u.high <= 1, number(u.low, 3) + " to " + number(u.high, 3), "0 to 1", "khronos");
     f.at_most("uv_overlap_share", u.overlap_share, 0, 0, "0", "khronos, shopify", 4);
     f.at_most("uv_inverted_triangles", u.inverted, 0, 0, "0", "khronos");
-    const int wanted = static_cast<int>(std::lround(8.0 * std::max(part.texture->width, part.texture->height) / 1024.0));
+    const int wanted =
+        static_cast<int>(std::lround(8.0 * std::max(part.texture->width, part.texture->height) / 1024.0));
     f.holds("uv_gutter_px", u.gutter >= wanted, number(u.gutter), "8 at 1024", "khronos", Verdict::warn);
     // White or black cloth breaks this by nature.
     f.holds("colour_bright_share", u.bright_share <= 0.01, number(u.bright_share, 4), "0.01 above 243", "khronos",

@@ -192,21 +192,21 @@ TEST_F(Rules, a_measure_out_of_range_is_passed_over_and_noted) {
 
 TEST_F(Rules, a_mistake_in_the_rules_names_its_key_and_the_way_out) {
   const std::string feed = shop("shopify.csv");
-  for (const auto& [text, where] : {std::pair<const char*, const char*>{"{\"picture\": []}", "\"picture\""},
-                                    {"{\"pictures\": [{}]}", "\"pictures\""},
-                                    {"{\"pictures\": [[{\"file\": \"(\", \"is\": \"front\"}]]}", "regular expression"},
-                                    {"{\"pictures\": [[{\"file\": \"a\", \"is\": \"left\"}]]}", "left"},
-                                    {"{\"pictures\": [[{\"position\": 0, \"is\": \"front\"}]]}", "position"},
-                                    {"{\"garments\": [{\"match\": \"a\"}]}", "\"garments\""},
-                                    {"{\"garments\": [{\"match\": \"a\", \"with\": \"(\", \"garment\": \"\"}]}",
-                                     "regular expression"},
-                                    {"{\"fabrics\": [{\"match\": \"a\", \"with\": \"b\", \"fabric\": \"c\"}]}", "with"},
-                                    {"{\"measures\": [{\"is\": \"hip_cm\", \"match\": \"(a)\"}]}", "\"measures\""},
-                                    {"{\"measures\": [{\"is\": \"chest_cm\", \"match\": \"a\"}]}", "group"},
-                                    {"{\"no_back\": \"maybe\"}", "\"no_back\""},
-                                    {"{\"mannequins\": [\"a b\"]}", "\"mannequins\""},
-                                    {"[]", "object"},
-                                    {"{", "rules.json:1: column"}}) {
+  for (const auto& [text, where] :
+       {std::pair<const char*, const char*>{"{\"picture\": []}", "\"picture\""},
+        {"{\"pictures\": [{}]}", "\"pictures\""},
+        {"{\"pictures\": [[{\"file\": \"(\", \"is\": \"front\"}]]}", "regular expression"},
+        {"{\"pictures\": [[{\"file\": \"a\", \"is\": \"left\"}]]}", "left"},
+        {"{\"pictures\": [[{\"position\": 0, \"is\": \"front\"}]]}", "position"},
+        {"{\"garments\": [{\"match\": \"a\"}]}", "\"garments\""},
+        {"{\"garments\": [{\"match\": \"a\", \"with\": \"(\", \"garment\": \"\"}]}", "regular expression"},
+        {"{\"fabrics\": [{\"match\": \"a\", \"with\": \"b\", \"fabric\": \"c\"}]}", "with"},
+        {"{\"measures\": [{\"is\": \"hip_cm\", \"match\": \"(a)\"}]}", "\"measures\""},
+        {"{\"measures\": [{\"is\": \"chest_cm\", \"match\": \"a\"}]}", "group"},
+        {"{\"no_back\": \"maybe\"}", "\"no_back\""},
+        {"{\"mannequins\": [\"a b\"]}", "\"mannequins\""},
+        {"[]", "object"},
+        {"{", "rules.json:1: column"}}) {
     const auto error = error_of(feed, rules(text));
     EXPECT_EQ(error.code, "RULES") << text;
     EXPECT_THAT(error.message, HasSubstr(where)) << text;
