@@ -29,8 +29,9 @@ std::string write_png(const std::string& folder, const std::string& name, const 
 /// All of what trades speed for accuracy, or breaks it.
 struct Dressing {
   std::vector<int> level_nodes{300};  ///< both panels, coarse to fine
-  SewingOptions sewing{.residual = 1e-2};
+  SewingOptions sewing;
   Fabric fabric;  ///< empty name: the garment's first
+  Dressing() { sewing.residual = 1e-2; }
 };
 
 /// Seen once, with feature points on both sides; throws when the drawn garment is refused, which is no case.

@@ -117,17 +117,18 @@ Result<Fidelity> compare_with_photo(const Image& labels, const GarmentTemplate& 
 
   Fidelity out;
   for (const auto& sleeve : sleeves) out.left_out.push_back(sleeve.name);
+  const fidelity::Overlay overlay(photo, worn);
   const FlatToWorn box = fidelity::box_on_box(photo, worn);
   // The true size starts from the middles of the boxes, the freer fits from the one before and from box on box.
   FlatToWorn start;
   const Vec2 photo_middle = photo.top_left + photo.pixel / 2 * Vec2(photo.width, -photo.height);
   start.shift = box(photo_middle) - photo_middle;
-  const FlatToWorn shifted = fidelity::align(photo, worn, start, Freedom::shift, out.iou_true_size);
-  const FlatToWorn uniform = fidelity::align(photo, worn, shifted, Freedom::one_scale, out.iou_uniform);
+  const FlatToWorn shifted = overlay.align(start, Freedom::shift, out.iou_true_size);
+  const FlatToWorn uniform = overlay.align(shifted, Freedom::one_scale, out.iou_uniform);
   out.uniform_scale = uniform.width;
   double from_box = 0;
-  const FlatToWorn boxed = fidelity::align(photo, worn, box, Freedom::two_scales, from_box);
-  out.fit = fidelity::align(photo, worn, uniform, Freedom::two_scales, out.iou);
+  const FlatToWorn boxed = overlay.align(box, Freedom::two_scales, from_box);
+  out.fit = overlay.align(uniform, Freedom::two_scales, out.iou);
   if (from_box > out.iou) {
     out.iou = from_box;
     out.fit = boxed;
