@@ -62,8 +62,10 @@ void Extremes::each_case(const Take& take) const {
 }
 
 void Extremes::constants(const Take& take) const {
-  const auto raw = [this](double k, double m) {
+  const auto raw = [this](double k, double m, double bend_times = 1) {
     Dressing d;
+    d.fabric = vest_.garment.fabrics.front();
+    d.fabric.bend *= bend_times;
     d.sewing.spring_k = k;
     d.sewing.node_mass = m;
     return dress_garment(vest_, *woman_, d);
@@ -77,8 +79,9 @@ void Extremes::constants(const Take& take) const {
                                    std::tuple{"k infinite", infinity, 1e-4}, std::tuple{"m infinite", 1e3, infinity}})
     take("k and m", name, [=, k = k, m = m] { return outcome_of(raw(k, m)); });
   for (const int power : {-10, 3, 12})
-    take("scaling law", text("k and m times 2^%d", power), [=] {
-      const auto one = raw(1e3, 1e-4), other = raw(std::ldexp(1e3, power), std::ldexp(1e-4, power));
+    take("scaling law", text("k, m and bend times 2^%d", power), [=] {
+      const auto one = raw(1e3, 1e-4),
+                 other = raw(std::ldexp(1e3, power), std::ldexp(1e-4, power), std::ldexp(1.0, power));
       Outcome o = outcome_of(other);
       if (!one || !other) return o;
       bool same = one->positions.size() == other->positions.size();

@@ -56,7 +56,13 @@ void Extremes::photos(const Take& take) const {
     request.quality = Quality::draft;
     request.body = woman_;
     const Conversion made = cut_and_sew(request);
-    if (made.drape.positions.empty() && made.error) return outcome_of(*made.error);
+    if (made.drape.positions.empty() && made.error) {
+      Outcome refusal = outcome_of(*made.error);
+      // The folder has another name in every run.
+      for (std::size_t at; (at = refusal.note.find(folder_ + "/")) != std::string::npos;)
+        refusal.note.erase(at, folder_.size() + 1);
+      return refusal;
+    }
     Outcome o = outcome_of(Result<Drape>(made.drape));
     for (const std::string& warning : made.warnings) o.note += (o.note.empty() ? "" : "; ") + warning.substr(0, 60);
     return o;
