@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
       const std::string status = made.error ? made.error->code : made.drape.status;
       if (made.drape.positions.empty()) {
         std::printf("%-14s refused: %s\n", item.name.c_str(), status.c_str());
+        out << item.name << ',' << item.garment << ',' << status << ",,,,,,,,,,\n";
         continue;
       }
       FidelityOptions options;
