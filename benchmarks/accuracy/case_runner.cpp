@@ -133,15 +133,17 @@ Outcome run_apart(const std::function<Outcome()>& body, int cpu_seconds, int meg
 }
 
 std::string csv_row(const std::string& group, const std::string& name, const Outcome& o) {
-  std::string note = o.note;
-  std::replace_if(
-      note.begin(), note.end(), [](char c) { return c == ',' || c == '"' || c == '\n'; }, ';');
-  return group + "," + name + "," + o.status + "," + field(o.residual, "%.2e") + "," + field(o.gap_mm, "%.3f") + "," +
-         field(o.penetration_mm, "%.3f") + "," + field(o.stretch_p99, "%.4f") + "," +
+  const auto cell = [](std::string words) {
+    std::replace_if(
+        words.begin(), words.end(), [](char c) { return c == ',' || c == '"' || c == '\n'; }, ';');
+    return words;
+  };
+  return cell(group) + "," + cell(name) + "," + o.status + "," + field(o.residual, "%.2e") + "," +
+         field(o.gap_mm, "%.3f") + "," + field(o.penetration_mm, "%.3f") + "," + field(o.stretch_p99, "%.4f") + "," +
          (o.refused  ? ""
           : o.finite ? "1"
                      : "0") +
-         "," + field(o.cpu_ms, "%.0f") + "," + note + "\n";
+         "," + field(o.cpu_ms, "%.0f") + "," + cell(o.note) + "\n";
 }
 
 }  // namespace vitrine::bench

@@ -79,7 +79,7 @@ void Extremes::constants(const Take& take) const {
                                    std::tuple{"k infinite", infinity, 1e-4}, std::tuple{"m infinite", 1e3, infinity}})
     take("k and m", name, [=, k = k, m = m] { return outcome_of(raw(k, m)); });
   for (const int power : {-10, 3, 12})
-    take("scaling law", text("k, m and bend times 2^%d", power), [=] {
+    take("scaling law", text("k and m and bend times 2^%d", power), [=] {
       const auto one = raw(1e3, 1e-4),
                  other = raw(std::ldexp(1e3, power), std::ldexp(1e-4, power), std::ldexp(1.0, power));
       Outcome o = outcome_of(other);
