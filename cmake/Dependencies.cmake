@@ -30,6 +30,8 @@ if(VITRINE_TESTS)
 endif()
 if(VITRINE_BENCHMARKS)
   find_package(benchmark REQUIRED)                                   # debian: libbenchmark-dev
+  # Writes docs/ACCURACY.md from the tables of benchmarks/accuracy; its own library is all it needs.
+  find_program(VITRINE_PYTHON python3)                               # debian: python3
   # A program to compare with; vitrine-bench leaves it out where it is not installed.
   find_library(GMSH_LIBRARY gmsh)                                    # debian-peer: libgmsh-dev
   find_path(GMSH_INCLUDE_DIR gmsh.h)

@@ -108,6 +108,9 @@ Result<double> height_on_body(const GarmentTemplate& garment, const Panel& panel
 
 Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pattern, const Mannequin& mannequin,
                                const DistanceField& field, const FitOptions& options) {
+  if (field.values.empty())
+    return Error{Cause::unusable, "NO_BODY", "the body's distance field is empty", "voxelise the mannequin first",
+                 "fit"};
   double body_height = 0;
   for (const Vec3& v : mannequin.mesh.vertices) body_height = std::max(body_height, v.y());
 

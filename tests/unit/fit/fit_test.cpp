@@ -340,6 +340,14 @@ TEST(Fit, trousers_hang_from_the_waist_or_where_the_rise_is_short_from_the_crotc
   }
 }
 
+TEST(Fit, a_body_without_voxels_is_refused) {
+  const Doll doll;
+  const Shirt shirt(30);
+  const auto placed = place_panels(shirt.garment, shirt.pattern, doll.mannequin, {});
+  ASSERT_FALSE(placed);
+  EXPECT_EQ(placed.error().code, "NO_BODY");
+}
+
 TEST(Fit, a_panel_of_another_size_than_any_body_is_refused) {
   const Doll doll;
   Shirt shirt(30);

@@ -17,8 +17,8 @@ struct FitOptions {
 using Placement = std::vector<std::vector<Vec3>>;
 
 /// Places the panels by their feature points before and behind the mannequin, turns limbs (sleeves) to follow the
-/// body's arms, and pushes every node out of the voxels to its own side (paper III.C). Errors (65): NO_LANDMARK,
-/// PANEL_SIZE (panel and body sizes cannot belong together; the message proposes a factor).
+/// body's arms, and pushes every node out of the voxels to its own side (paper III.C). Errors (65): NO_BODY,
+/// NO_LANDMARK, PANEL_SIZE (panel and body sizes cannot belong together; the message proposes a factor).
 Result<Placement> place_panels(const GarmentTemplate& garment, const Pattern& pattern, const Mannequin& mannequin,
                                const DistanceField& field, const FitOptions& options = {});
 
