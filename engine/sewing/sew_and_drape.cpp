@@ -97,7 +97,8 @@ class Tailor {
 
   Contact contact_for(const Cloth& cloth, double dx) const {
     // A node's ordinary load: the column of cloth that hangs below it.
-    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_, middles_ ? Middles::all : Middles::where_needed);
+    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_,
+                        middles_ || o_.contact_between_nodes ? Middles::all : Middles::where_needed);
   }
 
   /// Draws the partners that are not sewn yet together and sews those that meet, in rounds: first the pairs that start
@@ -169,7 +170,8 @@ class Tailor {
       fallen_ = start - middle(cloth).y() > drop;
       return fallen_;
     };
-    RelaxOutcome done = relax(cloth, &contact_, r);
+    if (last && o_.front_back == FrontBack::always) layers_.emplace(pattern(), nodes_, 0.3 * k_);
+    RelaxOutcome done = relax(cloth, &contact_, r, layers_ ? &*layers_ : nullptr);
     x_ = scatter(cloth, nodes_);
     const auto relax_again = [&](Layers* layers) {
       const int before_this = done.iterations;
@@ -178,13 +180,14 @@ class Tailor {
       x_ = scatter(cloth, nodes_);
     };
     // What was skipped because the scene did not seem to need it is looked at now, and turned on where it mattered.
-    if (last && done.finite && !fallen_ && measure_penetration(pattern(), x_, body_) > penetration_bar) {
+    if (last && done.finite && !fallen_ && !o_.contact_between_nodes &&
+        measure_penetration(pattern(), x_, body_) > penetration_bar) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;
       contact_ = contact_for(cloth, dx);
-      relax_again(nullptr);
+      relax_again(layers_ ? &*layers_ : nullptr);
     }
-    if (last && done.finite && !fallen_) {
+    if (last && done.finite && !fallen_ && o_.front_back == FrontBack::where_crossed) {
       crossed_before_ = detect_self_contact(pattern(), nodes_, x_);
       if (crossed_before_.crossed > 0) {
         layers_.emplace(pattern(), nodes_, 0.3 * k_);
