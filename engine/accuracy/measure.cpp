@@ -32,8 +32,8 @@ std::optional<double> apart_mm(const std::optional<double>& a, const std::option
 /// right as the first.
 Settings reference_settings(const MeasureOptions& options, bool second) {
   Settings settings = settings_of(Quality::fine);
-  settings.level_nodes = levels_up_to(second ? std::vector<int>{500, 3500, 12'000} : settings.level_nodes,
-                                      options.reference_nodes);
+  settings.level_nodes =
+      levels_up_to(second ? std::vector<int>{500, 3500, 12'000} : settings.level_nodes, options.reference_nodes);
   settings.residual = options.reference_residual;
   settings.max_iterations = options.reference_iterations;
   return settings;
@@ -183,14 +183,19 @@ class Study {
     }
     for (const RunRow& run : out_.runs)
       if (run.knob.empty() && run.mean_mm)
-        say(run.setting + text(": %.2f mm from the reference, spread %.2f mm", *run.mean_mm, run.spread_mm.value_or(0)));
+        say(run.setting +
+            text(": %.2f mm from the reference, spread %.2f mm", *run.mean_mm, run.spread_mm.value_or(0)));
   }
 
   void turn_effects_on() {
     for (const std::string& skipped : standard_.skipped) {
       const auto colon = skipped.find(": ");
-      EffectRow row{item_.name, skipped.substr(0, colon),
-                    colon == std::string::npos ? std::string() : skipped.substr(colon + 2), {}, {}, {}};
+      EffectRow row{item_.name,
+                    skipped.substr(0, colon),
+                    colon == std::string::npos ? std::string() : skipped.substr(colon + 2),
+                    {},
+                    {},
+                    {}};
       for (const Switch& effect : switches) {
         if (!row.effect.starts_with(effect.effect)) continue;
         row.effect = effect.effect;
@@ -295,8 +300,7 @@ Result<Measurement> measure(const std::vector<MeasuredItem>& items, const Measur
       child = {};
       --running;
       ++ended;
-      if (options.say)
-        options.say(std::to_string(ended) + " of " + std::to_string(items.size()) + " items measured");
+      if (options.say) options.say(std::to_string(ended) + " of " + std::to_string(items.size()) + " items measured");
       // So far as it has come: who stops a long run has this.
       if (auto e = write_measurement(gather(), options)) return *e;
     }

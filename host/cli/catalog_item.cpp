@@ -91,6 +91,20 @@ struct SizeRun {
 
 }  // namespace
 
+ConvertRequest request_of(const CatalogItem& row) {
+  ConvertRequest request;
+  request.name = row.sku;
+  request.front = row.front;
+  request.back = row.back;
+  request.front_mask = row.front_mask;
+  request.back_mask = row.back_mask;
+  request.mirror_back = row.mirror_back;
+  request.fabric = row.fabric;
+  request.chest = row.chest_cm.value_or(0) / 100;
+  request.length = row.length_cm.value_or(0) / 100;
+  return request;
+}
+
 std::string ItemKitchen::settings_of(const CatalogItem& row) const {
   std::string text = settings;
   for (const std::string& name : mannequins_of(row)) text += "mannequin " + shelf.identity(name) + "\n";
@@ -108,16 +122,7 @@ std::optional<Error> ItemKitchen::prepare(const CatalogItem& row) const {
 
 ItemOutcome ItemKitchen::convert_item(const CatalogItem& row, const std::string& folder) const {
   if (row.refusal) return refuse(*row.refusal);
-  ConvertRequest request;
-  request.name = row.sku;
-  request.front = row.front;
-  request.back = row.back;
-  request.front_mask = row.front_mask;
-  request.back_mask = row.back_mask;
-  request.mirror_back = row.mirror_back;
-  request.fabric = row.fabric;
-  request.chest = row.chest_cm.value_or(0) / 100;
-  request.length = row.length_cm.value_or(0) / 100;
+  ConvertRequest request = request_of(row);
   request.thumbnail = true;
   request.times_in_report = false;
   if (auto e = job.apply(request)) return refuse(*e);

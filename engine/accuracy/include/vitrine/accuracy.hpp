@@ -99,7 +99,8 @@ struct Measurement {
 
 /// Makes every item in every setting and compares with its reference, each run in a forked process of its own, whose
 /// memory and processor time are its own. References are kept in out_dir/references under what standard made of the
-/// item, so that a run that was stopped goes on. Call before any thread is started. Error: CANNOT_WRITE (73), FORK (75).
+/// item, so that a run that was stopped goes on. Call before any thread is started. Error: CANNOT_WRITE (73), FORK
+/// (75).
 Result<Measurement> measure(const std::vector<MeasuredItem>& items, const MeasureOptions& options);
 
 /// Settings whose cost no other undercuts at the same or a smaller error: indices in the order of their cost.
