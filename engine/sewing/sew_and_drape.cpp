@@ -97,8 +97,7 @@ class Tailor {
 
   Contact contact_for(const Cloth& cloth, double dx) const {
     // A node's ordinary load: the column of cloth that hangs below it.
-    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_,
-                        middles_ || o_.contact_between_nodes ? Middles::all : Middles::where_needed);
+    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_, middles_ ? Middles::all : Middles::where_needed);
   }
 
   /// Draws the partners that are not sewn yet together and sews those that meet, in rounds: first the pairs that start
@@ -170,8 +169,7 @@ class Tailor {
       fallen_ = start - middle(cloth).y() > drop;
       return fallen_;
     };
-    if (last && o_.front_back == FrontBack::always) layers_.emplace(pattern(), nodes_, 0.3 * k_);
-    RelaxOutcome done = relax(cloth, &contact_, r, layers_ ? &*layers_ : nullptr);
+    RelaxOutcome done = relax(cloth, &contact_, r);
     x_ = scatter(cloth, nodes_);
     const auto relax_again = [&](Layers* layers) {
       const int before_this = done.iterations;
@@ -180,16 +178,16 @@ class Tailor {
       x_ = scatter(cloth, nodes_);
     };
     // What was skipped because the scene did not seem to need it is looked at now, and turned on where it mattered.
-    if (last && done.finite && !fallen_ && !o_.contact_between_nodes &&
-        measure_penetration(pattern(), x_, body_) > penetration_bar) {
+    if (last && done.finite && !fallen_ &&
+        (o_.contact_between_nodes || measure_penetration(pattern(), x_, body_) > penetration_bar)) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;
       contact_ = contact_for(cloth, dx);
-      relax_again(layers_ ? &*layers_ : nullptr);
+      relax_again(nullptr);
     }
-    if (last && done.finite && !fallen_ && o_.front_back == FrontBack::where_crossed) {
+    if (last && done.finite && !fallen_ && o_.front_back != FrontBack::never) {
       crossed_before_ = detect_self_contact(pattern(), nodes_, x_);
-      if (crossed_before_.crossed > 0) {
+      if (crossed_before_.crossed > 0 || o_.front_back == FrontBack::always) {
         layers_.emplace(pattern(), nodes_, 0.3 * k_);
         relax_again(&*layers_);
       }

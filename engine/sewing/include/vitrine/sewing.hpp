@@ -17,7 +17,7 @@ namespace vitrine {
 enum class FrontBack {
   where_crossed,  ///< looked for at rest, and only then relaxed again
   never,
-  always  ///< from the start of the last level
+  always  ///< the cloth at rest is relaxed again even where nothing crossed
 };
 
 struct SewingOptions {
@@ -34,7 +34,8 @@ struct SewingOptions {
   bool friction = true;
   bool bending = true;
   FrontBack front_back = FrontBack::where_crossed;
-  bool contact_between_nodes = false;  ///< at all edges and triangles, not only where the body may reach them
+  /// The cloth at rest is relaxed again with contact at all edges and triangles, even where they do not cut in.
+  bool contact_between_nodes = false;
   /// Called now and then with level, iteration and residual; may be empty.
   std::function<void(int, int, double)> progress;
 };
