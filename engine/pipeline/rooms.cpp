@@ -36,16 +36,21 @@ void fill_inside(Image& labels) {
 
 }  // namespace
 
-QualityPlan plan_for(Quality quality) {
+Settings settings_of(Quality quality) {
+  Settings settings;
   switch (quality) {
     case Quality::draft:
-      return {{300}, 1e-2};
-    case Quality::fine:
-      return {{300, 2000, 6500, 20000}, 1e-3};
+      settings.level_nodes = {300};
+      settings.residual = 1e-2;
+      break;
     case Quality::standard:
+      settings.level_nodes = {300, 2000};
+      break;
+    case Quality::fine:
+      settings.level_nodes = {300, 2000, 6500, 20000};
       break;
   }
-  return {{300, 2000}, 1e-3};
+  return settings;
 }
 
 Rooms::Step Rooms::check_request() {
@@ -114,7 +119,6 @@ PanelOptions Rooms::panel_options(double edge_length) const {
 }
 
 Rooms::Step Rooms::cut_panels() {
-  plan_ = plan_for(request_.quality);
   // A first cut at a middling edge length only to learn the cloth's area.
   if (auto e = keep(make_panels(item_.front.features, item_.back.features, request_.garment, panel_options(0.03)),
                     item_.panels))
@@ -122,7 +126,7 @@ Rooms::Step Rooms::cut_panels() {
   const double area = polygon_area(item_.panels.front.outline) + polygon_area(item_.panels.back.outline);
   const double longest =
       std::min(longest_edge(request_.garment, item_.panels.front), longest_edge(request_.garment, item_.panels.back));
-  for (const int nodes : plan_.level_nodes) {
+  for (const int nodes : settings_.level_nodes) {
     // A hexagonal lattice of spacing h spends h^2 sqrt(3)/2 of area on each node.
     const double edge_length = std::min(longest, std::sqrt(area / (nodes * std::sqrt(3.0) / 2)));
     if (!levels_.empty() && edge_length > 0.95 * levels_.back().edge_length) continue;  // no finer than the one before
@@ -166,7 +170,13 @@ Rooms::Step Rooms::place() {
 
 Rooms::Step Rooms::sew() {
   SewingOptions options;
-  options.residual = plan_.residual;
+  options.residual = settings_.residual;
+  options.max_iterations = settings_.max_iterations;
+  options.max_weight_strain = settings_.max_weight_strain;
+  options.bending = settings_.bending;
+  options.friction = settings_.friction;
+  options.front_back = settings_.front_back;
+  options.contact_between_nodes = settings_.contact_between_nodes;
   options.spring_k = request_.spring_k;
   options.node_mass = request_.node_mass;
   if (request_.progress)

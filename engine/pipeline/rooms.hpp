@@ -7,13 +7,6 @@
 
 namespace vitrine {
 
-/// Node counts (both panels) and residual of one quality.
-struct QualityPlan {
-  std::vector<int> level_nodes;
-  double residual;
-};
-QualityPlan plan_for(Quality quality);
-
 /// The steps of see(), one for each room. Each stops with the room's error, which is also kept in the view.
 std::optional<Error> load_view(const ViewRequest& request, View& view);
 std::optional<Error> outline_view(const ViewRequest& request, View& view);
@@ -32,7 +25,11 @@ std::optional<Error> keep(Result<T> result, T& place) {
 class Rooms {
  public:
   Rooms(const ConvertRequest& request, Conversion& item)
-      : request_(request), front_(view_of(request, Side::front)), back_(view_of(request, Side::back)), item_(item) {}
+      : request_(request),
+        settings_(request.settings.value_or(settings_of(request.quality))),
+        front_(view_of(request, Side::front)),
+        back_(view_of(request, Side::back)),
+        item_(item) {}
 
   using Step = std::optional<Error>;
 
@@ -67,9 +64,9 @@ class Rooms {
   PanelOptions panel_options(double edge_length) const;
 
   const ConvertRequest& request_;
+  const Settings settings_;
   const ViewRequest front_, back_;
   Conversion& item_;
-  QualityPlan plan_;
   std::vector<Pattern> levels_;
   Placement placed_;
 };

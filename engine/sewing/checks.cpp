@@ -58,7 +58,8 @@ std::optional<Error> check_options(const SewingOptions& o) {
       return usage("SEWING_OPTION", std::string("sewing option ") + name + " is " + number(value) + ".",
                    "Give a finite value above zero, or 0 for none.");
   if ((o.max_error > 0 || o.max_work > 0) && (o.spring_k > 0 || o.node_mass > 0))
-    return usage("SEWING_OPTION", "spring_k and node_mass belong to one mesh, which max_error and max_work would choose.",
+    return usage("SEWING_OPTION",
+                 "spring_k and node_mass belong to one mesh, which max_error and max_work would choose.",
                  "Leave out either.");
   const std::pair<const char*, double> positive[] = {
       {"residual", o.residual}, {"coarse_residual", o.coarse_residual}, {"offset", o.offset}};

@@ -30,8 +30,9 @@ constexpr double close_to_rest = 1e-2;      // [-] residual from which on a garm
 
 // Work is counted in node steps: one step of one node of cloth. What else a level costs, in the same unit.
 constexpr double step_cost = 1, layers_cost = 1.5;
-constexpr double level_cost = 200;                             // per node: springs, contact, lattices and welding
-constexpr double likely_steps = 1500, finishing_steps = 300;  // of a level, and from the coarse residual to close_to_rest
+constexpr double level_cost = 200;  // per node: springs, contact, lattices and welding
+constexpr double likely_steps = 1500,
+                 finishing_steps = 300;  // of a level, and from the coarse residual to close_to_rest
 
 std::string text(const char* format, double a, double b = 0) {
   char buffer[200];
@@ -74,8 +75,8 @@ struct Stage {
   Nodes nodes;
   Cloth cloth;
   Contact contact;
-  double residual = 0;     ///< [-] where the relaxation ended
-  bool finished = false;   ///< brought to the final residual, and what was skipped was looked at
+  double residual = 0;    ///< [-] where the relaxation ended
+  bool finished = false;  ///< brought to the final residual, and what was skipped was looked at
 };
 
 /// Walks the levels; one member function per step of the story.
@@ -132,7 +133,8 @@ class Tailor {
 
   Contact contact_for(const Cloth& cloth, double dx) const {
     // A node's ordinary load: the column of cloth that hangs below it.
-    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_, middles_ ? Middles::all : Middles::where_needed);
+    return make_contact(cloth, body_, o_.offset, 2 * column_ * dx, k_,
+                        middles_ || o_.contact_between_nodes ? Middles::all : Middles::where_needed);
   }
 
   /// Draws the partners that are not sewn yet together and sews those that meet, in rounds: first the pairs that start
@@ -206,6 +208,7 @@ class Tailor {
     now_.contact = contact_for(now_.cloth, mean_edge(pattern()));
     // Where the time runs out there has to be some left for bringing the level before to rest.
     const double limit = kept_ ? o_.max_work - finishing_steps * kept_->cloth.size * step_cost : o_.max_work;
+    if (last() && o_.front_back == FrontBack::always) layers_.emplace(pattern(), now_.nodes, 0.3 * k_);
     if (last()) return relax_to(o_.residual, limit) && (given_up() || finish());
     return relax_to(std::max(o_.residual, o_.coarse_residual), limit) && record();
   }
@@ -215,14 +218,15 @@ class Tailor {
   bool finish() {
     if (now_.finished || fallen_) return record();
     now_.finished = true;
+    if (o_.front_back == FrontBack::always && !layers_) layers_.emplace(pattern(), now_.nodes, 0.3 * k_);
     if (!last() && now_.residual > o_.residual && !relax_to(o_.residual, o_.max_work)) return false;
-    if (!fallen_ && measure_penetration(pattern(), now_.x, body_) > penetration_bar) {
+    if (!fallen_ && !o_.contact_between_nodes && measure_penetration(pattern(), now_.x, body_) > penetration_bar) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;
       now_.contact = contact_for(now_.cloth, mean_edge(pattern()));
       if (!relax_to(o_.residual, o_.max_work)) return false;
     }
-    if (!fallen_) {
+    if (!fallen_ && o_.front_back == FrontBack::where_crossed) {
       crossed_before_ = detect_self_contact(pattern(), now_.nodes, now_.x);
       if (crossed_before_.crossed > 0) {
         layers_.emplace(pattern(), now_.nodes, 0.3 * k_);
@@ -367,8 +371,8 @@ class Tailor {
       out_.detail = "Nothing holds the garment: it slid off the body and kept falling.";
     } else if (now_.closing.open > 0) {
       out_.status = "SEAM_OPEN";
-      out_.detail =
-          text("%.0f sewn pairs did not meet; the widest gap is %.1f mm.", now_.closing.open, 1000 * now_.closing.gap_open);
+      out_.detail = text("%.0f sewn pairs did not meet; the widest gap is %.1f mm.", now_.closing.open,
+                         1000 * now_.closing.gap_open);
     } else if (out_.penetration_mm_max > 1000 * penetration_bar) {
       out_.status = "INSIDE_BODY";
       out_.detail = text("The cloth lies up to %.1f mm inside the body.", out_.penetration_mm_max);

@@ -22,8 +22,21 @@
 
 namespace vitrine {
 
-/// How much work one item may cost: node counts (both panels) of the mesh levels, and the force residual to stop at.
+/// How much work one item may cost, as a user asks for it.
 enum class Quality { draft, standard, fine };
+
+/// Everything that trades work for accuracy. A quality is one of these with a name; `vitrine measure` varies the rest.
+struct Settings {
+  std::vector<int> level_nodes;     ///< nodes (both panels) of the mesh levels, coarse to fine
+  double residual = 1e-3;           ///< [-] force residual of the last level to stop at
+  int max_iterations = 60'000;      ///< per level
+  double max_weight_strain = 1e-3;  ///< [-] see SewingOptions: where stiffness is capped; 0 = nowhere
+  bool bending = true, friction = true;
+  FrontBack front_back = FrontBack::where_crossed;
+  bool contact_between_nodes = false;
+  int photo_side = PhotoOptions{}.max_side;  ///< [px] larger photos are reduced to this
+};
+Settings settings_of(Quality quality);
 
 /// A mannequin with its voxels, made once and shared by every item that is dressed on it.
 struct Body {
@@ -45,6 +58,7 @@ struct ViewRequest : GarmentChoice {
   std::string photo;  ///< file
   std::string mask;   ///< file; may be empty
   Side side = Side::front;
+  int max_side = PhotoOptions{}.max_side;  ///< [px] a larger photo is reduced to this
 };
 
 /// One photo after the rooms photo, silhouette and features; everything in the front frame.
@@ -101,6 +115,7 @@ struct ConvertRequest : GarmentChoice {
   double spring_k = 0, node_mass = 0;  ///< [N/m], [kg] the paper's own constants, see SewingOptions; 0 = the fabric's
   double chest = 0, length = 0;        ///< [m] flat measurements as the shop lists them; 0 = unknown
   Quality quality = Quality::standard;
+  std::optional<Settings> settings;  ///< in place of the quality's
   bool debug_images = false;
   std::vector<MeshFormat> formats;  ///< also write the garment as these
   bool compress = false;            ///< also write copies for a web page

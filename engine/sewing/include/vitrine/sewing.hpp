@@ -13,6 +13,13 @@
 
 namespace vitrine {
 
+/// When front and back are kept from passing through each other on the last level.
+enum class FrontBack {
+  where_crossed,  ///< looked for at rest, and only then relaxed again
+  never,
+  always  ///< from the start of the last level
+};
+
 struct SewingOptions {
   double residual = 1e-3;           ///< [-] stop: sum of |net force| / weight on the last level
   double coarse_residual = 3e-2;    ///< [-] the same on all other levels
@@ -31,6 +38,8 @@ struct SewingOptions {
   double max_work = 0;
   bool friction = true;
   bool bending = true;
+  FrontBack front_back = FrontBack::where_crossed;
+  bool contact_between_nodes = false;  ///< at all edges and triangles, not only where the body may reach them
   /// Called now and then with level, iteration and residual; may be empty.
   std::function<void(int, int, double)> progress;
 };
