@@ -331,6 +331,7 @@ class Tailor {
     out_.seam_gap_mm_max = 1000 * std::max(gap_met_, now_.closing.open > 0 ? now_.closing.gap_open : 0.0);
     out_.welded = now_.nodes;
     out_.positions = now_.x;
+    out_.level = now_.level;
     const SelfContact self = detect_self_contact(pattern(), now_.nodes, now_.x);
     out_.self_touching = self.close;
     out_.self_crossed = self.crossed;

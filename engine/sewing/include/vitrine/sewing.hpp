@@ -48,18 +48,19 @@ struct LevelFigures {
   int nodes = 0, iterations = 0;
   double residual = 0;
   double change_mean_mm = 0, change_max_mm = 0;  ///< how far this level moved the one before
-  double change_surface_mm = 0;  ///< the part of it along the surface's normals, mean over the area
-  double edge_mm = 0;            ///< mean length of the mesh's edges
-  double loose_share = 0;        ///< [-] of the nodes that lie more than a centimetre off the body
-  double error_estimate_mm = 0;  ///< mean distance to what ever finer meshes would give
-  double work = 0;               ///< [node steps]
+  double change_surface_mm = 0;                  ///< the part of it along the surface's normals, mean over the area
+  double edge_mm = 0;                            ///< mean length of the mesh's edges
+  double loose_share = 0;                        ///< [-] of the nodes that lie more than a centimetre off the body
+  double error_estimate_mm = 0;                  ///< mean distance to what ever finer meshes would give
+  double work = 0;                               ///< [node steps]
 };
 
 /// The garment at rest, and how much to believe it.
 struct Drape {
   std::string status;  ///< "OK", NOT_CONVERGED, SEAM_OPEN, NOT_SUPPORTED, OVERSTRETCHED, INSIDE_BODY
   std::string detail;  ///< one sentence when the status is not OK
-  std::vector<std::vector<Vec3>> positions;        ///< [m] per panel, per node of the last level; sewn nodes coincide
+  int level = 0;       ///< the mesh level that this is on
+  std::vector<std::vector<Vec3>> positions;        ///< [m] per panel, per node of that level; sewn nodes coincide
   std::vector<std::vector<std::uint32_t>> welded;  ///< per panel, per node: index of the sewn node
   double residual = 0;                             ///< recomputed independently of the solver's own stop test
   double seam_gap_mm_max = 0;     ///< largest distance of two sewn partners just before they were welded
