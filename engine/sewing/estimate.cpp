@@ -2,6 +2,7 @@
 #include "estimate.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace vitrine::sewing {
@@ -11,7 +12,7 @@ namespace {
 // small. `vitrine-estimate-bench` prints what they come from (docs/ARCHITECTURE.md).
 constexpr double tight_share = 0.02,
                  loose_more = 0.19;   // [-] of the edge length, error of cloth that is held and hangs
-constexpr double change_share = 0.8;  // [-] of what a level moved, still to come on finer ones
+constexpr double change_share = 0.8;  // [-] of what a level moved still to come, where it halved the edges
 
 }  // namespace
 
@@ -40,7 +41,9 @@ double estimate_error(std::span<const LevelFigures> levels) {
   const LevelFigures& last = levels.back();
   // One level alone: sagging chords and missing folds grow with the edges, where the body does not hold the cloth.
   if (levels.size() < 2) return last.edge_mm * (tight_share + loose_more * last.loose_share);
-  return last.change_surface_mm * change_share;
+  // The closer two levels are, the less of what is to come has one of them shown.
+  const double finer = levels[levels.size() - 2].edge_mm / last.edge_mm - 1;
+  return last.change_surface_mm * change_share / std::sqrt(std::max(finer, 0.05));
 }
 
 }  // namespace vitrine::sewing
