@@ -31,7 +31,7 @@ struct SewingOptions {
   /// every node of the last level; 0 = the fabric's, spread by area. What cloth that is depends on the mesh; nothing is
   /// capped.
   double spring_k = 0, node_mass = 0;
-  /// [m] Stops at the first level whose error estimate is within this, brought to `residual`; 0 = all levels.
+  /// [m] Stops at the first level whose error estimate, times 1.3, is within this, brought to `residual`; 0 = none.
   double max_error = 0;
   /// [node steps] Work after which no further level is begun, and the one in hand is left once it is close to rest
   /// (residual 1e-2), or given up for the one before; the first level is always brought that far. 0 = no limit.
