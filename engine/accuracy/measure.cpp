@@ -77,6 +77,7 @@ class Study {
     }
     if (standard_.draped()) {
       compare_with_references();
+      if (o_.max_error > 0) ask_for_an_error();
       if (o_.effects) turn_effects_on();
     }
     return std::move(out_);
@@ -145,7 +146,8 @@ class Study {
   }
 
   void compare_with_references() {
-    const Made a = reference(false);
+    reference_ = reference(false);
+    const Made& a = reference_;
     say("reference: " + a.status + text(", residual %.1e, %.0f s", a.residual, a.sewing_ms / 1000));
     const Made b = reference(true);
     say("from another start: " + b.status + text(", residual %.1e, %.0f s", b.residual, b.sewing_ms / 1000));
@@ -187,6 +189,28 @@ class Study {
             text(": %.2f mm from the reference, spread %.2f mm", *run.mean_mm, run.spread_mm.value_or(0)));
   }
 
+  void ask_for_an_error() {
+    ConvertRequest request = item_.request;
+    request.budget.max_error = o_.max_error;
+    const Made made = make(request, settings_of(Quality::fine), true);
+    BudgetRow row;
+    row.item = item_.name;
+    row.status = made.status;
+    row.asked_mm = 1000 * o_.max_error;
+    row.estimated_mm = made.estimate_mm;
+    row.cpu_ms = made.cpu_ms;
+    row.sewing_ms = made.sewing_ms;
+    for (const RunRow& run : out_.runs)
+      if (run.setting == "fine") row.fine_cpu_ms = run.cpu_ms, row.fine_sewing_ms = run.sewing_ms;
+    row.met = "unknown";
+    if (made.comparable() && reference_.comparable()) {
+      row.true_mm = surface_distance(made.surface, reference_.surface).mean_mm;
+      row.met = *row.true_mm <= row.asked_mm ? "yes" : "no";
+      say(text("asked %.1f mm: %.2f mm from the reference", row.asked_mm, *row.true_mm));
+    }
+    out_.budgets.push_back(std::move(row));
+  }
+
   void turn_effects_on() {
     for (const std::string& skipped : standard_.skipped) {
       const auto colon = skipped.find(": ");
@@ -218,7 +242,7 @@ class Study {
   const MeasureOptions& o_;
   const std::vector<Setting>& settings_;
   const Bodies& bodies_;
-  Made standard_;
+  Made standard_, reference_;
   std::vector<Made> made_;  ///< one for each of out_.runs
   Measurement out_;
 };

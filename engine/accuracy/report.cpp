@@ -165,6 +165,24 @@ std::string markdown(const Measurement& m, const std::vector<SettingMeans>& mean
     out += " " + (standard ? cell(standard->iou, 3) : "–") + " | " + (standard ? standard->status : r.status) + " |\n";
   }
 
+  if (!m.budgets.empty()) {
+    int met = 0, known = 0;
+    double cpu = 0, fine = 0;
+    out +=
+        "\n## An error asked for\n\n| item | asked [mm] | estimated [mm] | true [mm] | met | CPU [ms] | fine's [ms] "
+        "|\n|---|---|---|---|---|---|---|\n";
+    for (const BudgetRow& b : m.budgets) {
+      out += "| " + b.item + " | " + fixed(b.asked_mm, 1) + " | " + cell(b.estimated_mm, 2) + " | " +
+             cell(b.true_mm, 2) + " | " + b.met + " | " + fixed(b.cpu_ms, 0) + " | " + fixed(b.fine_cpu_ms, 0) + " |\n";
+      met += b.met == "yes";
+      known += b.met != "unknown";
+      cpu += b.cpu_ms;
+      fine += b.fine_cpu_ms;
+    }
+    out += "\nMet on " + std::to_string(met) + " of " + std::to_string(known) + " items, at " +
+           (fine > 0 ? fixed(100 * cpu / fine, 0) : "–") + " % of fine's processor time.\n";
+  }
+
   bool any_knob = false;
   for (const SettingMeans& s : means) any_knob |= !s.knob.empty();
   if (any_knob) out += "\n## One knob at a time\n\n" + settings_table(means, true);
@@ -253,6 +271,8 @@ std::optional<Error> write_measurement(const Measurement& measurement, const Mea
       {"measure.md", markdown(measurement, means, options)},
       {"summary.json",
        summary(measurement, means, options).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"}};
+  if (!measurement.budgets.empty())
+    if (auto e = write_file(base + "budget.csv", budgets_csv(measurement.budgets))) return e;
   for (const auto& [name, content] : files)
     if (auto e = write_file(base + name, content)) return e;
   return std::nullopt;

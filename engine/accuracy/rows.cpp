@@ -67,6 +67,20 @@ void each_of_reference(Row& r, Visit&& visit) {
   visit("spread_chest_mm", r.spread_chest_mm);
 }
 
+template <class Row, class Visit>
+void each_of_budget(Row& r, Visit&& visit) {
+  visit("item", r.item);
+  visit("status", r.status);
+  visit("asked_mm", r.asked_mm);
+  visit("estimated_mm", r.estimated_mm);
+  visit("true_mm", r.true_mm);
+  visit("cpu_ms", r.cpu_ms);
+  visit("fine_cpu_ms", r.fine_cpu_ms);
+  visit("sewing_ms", r.sewing_ms);
+  visit("fine_sewing_ms", r.fine_sewing_ms);
+  visit("met", r.met);
+}
+
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -141,6 +155,7 @@ void unpack(const Json& list, std::vector<Row>& rows, Each&& each) {
 
 constexpr auto runs_each = [](auto& row, auto&& visit) { each_of_run(row, visit); };
 constexpr auto effects_each = [](auto& row, auto&& visit) { each_of_effect(row, visit); };
+constexpr auto budgets_each = [](auto& row, auto&& visit) { each_of_budget(row, visit); };
 constexpr auto references_each = [](auto& row, auto&& visit) { each_of_reference(row, visit); };
 
 }  // namespace
@@ -157,12 +172,17 @@ std::string references_csv(const std::vector<ReferenceRow>& references) {
   return csv(references, references_each);
 }
 
+std::string budgets_csv(const std::vector<BudgetRow>& budgets) {
+  return csv(budgets, budgets_each);
+}
+
 namespace accuracy {
 
 Bytes to_bytes(const Measurement& part) {
   const Json json{{"runs", pack(part.runs, runs_each)},
                   {"effects", pack(part.effects, effects_each)},
-                  {"references", pack(part.references, references_each)}};
+                  {"references", pack(part.references, references_each)},
+                  {"budgets", pack(part.budgets, budgets_each)}};
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return {text.begin(), text.end()};
 }
@@ -174,6 +194,7 @@ std::optional<Measurement> measurement_from(const Bytes& bytes) {
     unpack(json.at("runs"), part.runs, runs_each);
     unpack(json.at("effects"), part.effects, effects_each);
     unpack(json.at("references"), part.references, references_each);
+    unpack(json.at("budgets"), part.budgets, budgets_each);
   } catch (const Json::exception&) {
     return std::nullopt;
   }
@@ -184,6 +205,7 @@ void append(Measurement& all, const Measurement& part) {
   all.runs.insert(all.runs.end(), part.runs.begin(), part.runs.end());
   all.effects.insert(all.effects.end(), part.effects.begin(), part.effects.end());
   all.references.insert(all.references.end(), part.references.begin(), part.references.end());
+  all.budgets.insert(all.budgets.end(), part.budgets.begin(), part.budgets.end());
 }
 
 }  // namespace accuracy

@@ -62,12 +62,15 @@ class Rooms {
 
  private:
   PanelOptions panel_options(double edge_length) const;
+  std::optional<Error> mesh(Pattern& level) const;
 
   const ConvertRequest& request_;
   const Settings settings_;
   const ViewRequest front_, back_;
   Conversion& item_;
-  std::vector<Pattern> levels_;
+  std::vector<Panels> cuts_;     ///< one for each level
+  std::vector<Pattern> levels_;  ///< with a budget those beyond the first are meshed when they are needed
+  double cloth_area_ = 0;        ///< [m^2] of both panels
   Placement placed_;
 };
 

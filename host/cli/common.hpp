@@ -36,7 +36,9 @@ struct MannequinOptions {
 
 /// What of a conversion is chosen on the command line and the same for a whole catalogue.
 struct JobOptions {
-  std::string quality = "standard";
+  std::string quality;  ///< empty: standard, or fine where max_error or max_time choose the mesh
+  std::optional<double> max_error_mm, max_time_s;
+  double work_rate = Budget::usual_rate;
   bool debug_images = false;
   std::vector<std::string> formats;
   bool compress = false;

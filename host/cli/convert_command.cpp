@@ -14,6 +14,17 @@ struct ConvertArguments {
   std::string out;
 };
 
+/// One line: what was asked, what is estimated, what was spent.
+void tell_budget(const Budget& asked, const Conversion& item) {
+  std::string what;
+  if (asked.max_error > 0) what = fmt::format("{:g} mm", 1e3 * asked.max_error);
+  if (asked.max_time > 0) what += fmt::format("{}{:g} s", what.empty() ? "" : " and ", asked.max_time);
+  spdlog::info(
+      "asked {}; estimated {:.2f} mm; spent {:.2f} s ({:.3g} units of work at {:.3g} a second), {} mesh levels", what,
+      item.drape.error_estimate_mm.value_or(0), item.budget.spent_s, item.budget.work, asked.work_rate,
+      item.drape.levels.size());
+}
+
 int run_convert(const ConvertArguments& arguments) {
   if (auto e = arguments.item.check()) return fail(*e);
   const auto registry = arguments.plugins.load();
@@ -22,6 +33,10 @@ int run_convert(const ConvertArguments& arguments) {
   if (!asked) return fail(asked.error());
   ConvertRequest request = *std::move(asked);
   if (auto e = arguments.job.apply(request)) return fail(*e);
+  if (request.budget.asked() && (request.spring_k > 0 || request.node_mass > 0))
+    return fail({Cause::usage, "USAGE",
+                 "--spring-k and --node-mass belong to one mesh, which --max-error and --max-time choose",
+                 "leave out either, and choose the mesh with --quality", ""});
   auto body = arguments.mannequin.make_body();
   if (!body) return fail(body.error());
   request.body = *body;
@@ -36,6 +51,7 @@ int run_convert(const ConvertArguments& arguments) {
   if (item.error) return fail(*item.error);
   spdlog::info("{} as {}: residual {:.1e}, seam gap {:.2f} mm, penetration {:.2f} mm", arguments.out,
                request.garment.id, item.drape.residual, item.drape.seam_gap_mm_max, item.drape.penetration_mm_max);
+  if (request.budget.asked()) tell_budget(request.budget, item);
   return 0;
 }
 

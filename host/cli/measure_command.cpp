@@ -21,6 +21,7 @@ struct MeasureArguments {
   std::vector<std::string> inputs;
   std::string grid = "none";
   bool no_effects = false;
+  double max_error_mm = 0;
 };
 
 MeasuredItem refused(const std::string& name, const std::string& source, const std::string& garment, Error error) {
@@ -90,6 +91,7 @@ int run_measure(MeasureArguments& a) {
   MeasureOptions& options = a.options;
   options.grid = a.grid == "full" ? Grid::full : a.grid == "short" ? Grid::shortened : Grid::none;
   options.effects = !a.no_effects;
+  options.max_error = a.max_error_mm / 1000;
   options.version = std::string("vitrine ") + VITRINE_VERSION;
   options.say = [](const std::string& line) { spdlog::info("{}", line); };
   for (MeasuredItem& item : items) item.request.version = VITRINE_VERSION;
@@ -133,6 +135,8 @@ void add_measure(CLI::App& app, int& exit_code) {
       ->add_option("--reference-steps", a->options.reference_iterations, "Most steps of the reference, on each level")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
+  command->add_option("--max-error", a->max_error_mm, "Also convert with this error [mm] asked for: was it met?")
+      ->check(CLI::Range(0.01, 1000.0));
   command->add_option("--jobs", a->options.jobs, "Items at a time")->check(CLI::Range(1, 256))->capture_default_str();
   a->item.add_to(*command, false);
   a->mannequin.add_to(*command);

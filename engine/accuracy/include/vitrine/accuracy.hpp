@@ -75,6 +75,7 @@ struct MeasureOptions {
   int reference_nodes = 40'000;
   double reference_residual = 1e-6;
   int reference_iterations = 12'000;  ///< per level; a budget of work
+  double max_error = 0;               ///< [m] also made with this asked for; 0 = not
   int jobs = 1;                       ///< items at a time
   std::string version;                ///< of the program, for the summary
   std::function<void(const std::string&)> say;
@@ -90,11 +91,21 @@ struct ReferenceRow {
   std::optional<double> spread_mean_mm, spread_p95_mm, spread_max_mm, spread_hem_mm, spread_waist_mm, spread_chest_mm;
 };
 
+/// What --max-error came to: the fine levels with a budget, ended by the item's own estimate.
+struct BudgetRow {
+  std::string item, status;
+  double asked_mm = 0;
+  std::optional<double> estimated_mm, true_mm;
+  double cpu_ms = 0, fine_cpu_ms = 0, sewing_ms = 0, fine_sewing_ms = 0;
+  std::string met;  ///< "yes", "no", or "unknown" without a reference
+};
+
 /// All that was found.
 struct Measurement {
   std::vector<RunRow> runs;
   std::vector<EffectRow> effects;
   std::vector<ReferenceRow> references;
+  std::vector<BudgetRow> budgets;
 };
 
 /// Makes every item in every setting and compares with its reference, each run in a forked process of its own, whose
@@ -109,6 +120,7 @@ std::vector<std::size_t> pareto_front(const std::vector<double>& cost, const std
 std::string runs_csv(const std::vector<RunRow>& runs);
 std::string effects_csv(const std::vector<EffectRow>& effects);
 std::string references_csv(const std::vector<ReferenceRow>& references);
+std::string budgets_csv(const std::vector<BudgetRow>& budgets);
 
 /// Means over the items of one setting; of items that have a reference and came out.
 struct SettingMeans {
@@ -121,7 +133,8 @@ struct SettingMeans {
 };
 std::vector<SettingMeans> means_by_setting(const std::vector<RunRow>& runs);
 
-/// Writes runs.csv, effects.csv, references.csv, pareto.svg, pareto.png, knobs.svg, summary.json and measure.md.
+/// Writes runs.csv, effects.csv, references.csv, budget.csv when an error was asked for, pareto.svg, pareto.png,
+/// knobs.svg, summary.json and measure.md.
 std::optional<Error> write_measurement(const Measurement& measurement, const MeasureOptions& options);
 
 }  // namespace vitrine

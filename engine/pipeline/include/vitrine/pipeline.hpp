@@ -38,6 +38,24 @@ struct Settings {
 };
 Settings settings_of(Quality quality);
 
+/// What a user asks of accuracy and time: the cheapest mesh level that meets it is made, none finer than the quality's.
+struct Budget {
+  /// [node steps/s] One core of a 2.5 GHz Xeon of 2019, see docs/ARCHITECTURE.md; seconds become work by it, once.
+  static constexpr double usual_rate = 18e6;
+  double max_error = 0;  ///< [m] by the item's own estimate; 0 = none asked
+  double max_time = 0;   ///< [s] of a processor, without the mannequin, which items share; 0 = none asked
+  double work_rate = usual_rate;
+  bool asked() const { return max_error > 0 || max_time > 0; }
+};
+
+/// What became of it.
+struct BudgetFigures {
+  double work = 0, allowed_work = 0;  ///< [node steps] all rooms
+  double spent_s = 0;                 ///< [s] the work at the budget's rate
+  bool error_met = true, time_met = true;
+  std::string ended_by;  ///< error, time or quality (there is no finer mesh)
+};
+
 /// A mannequin with its voxels, made once and shared by every item that is dressed on it.
 struct Body {
   Mannequin mannequin;
@@ -116,6 +134,7 @@ struct ConvertRequest : GarmentChoice {
   double chest = 0, length = 0;        ///< [m] flat measurements as the shop lists them; 0 = unknown
   Quality quality = Quality::standard;
   std::optional<Settings> settings;  ///< in place of the quality's
+  Budget budget;
   bool debug_images = false;
   std::vector<MeshFormat> formats;  ///< also write the garment as these
   bool compress = false;            ///< also write copies for a web page
@@ -141,9 +160,10 @@ struct Conversion {
   std::optional<Error> error;
   View front, back;
   Panels panels;
-  Pattern pattern;  ///< of the finest level
+  Pattern pattern;  ///< of the finest level that was sewn
   Fabric fabric;
   Drape drape;
+  BudgetFigures budget;                 ///< when one was asked for
   std::vector<TextureFigures> texture;  ///< front, back
   RenderMesh garment, mannequin;
   Bytes garment_glb, dressed_glb, preview_png;
@@ -191,6 +211,9 @@ std::vector<FabricDrape> cut_and_sew_fabrics(const ConvertRequest& request, std:
 /// report.json: status, reason, features in pixels of the photos as given, mesh, drape and texture figures, how the
 /// files stand to the limits of shops ("commerce"), milliseconds per room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
+
+/// What was asked of accuracy and time and what became of it, a JSON object; empty when nothing was asked or sewn.
+std::string budget_json(const ConvertRequest& request, const Conversion& conversion);
 
 /// Milliseconds of processor time per room, a JSON object.
 std::string stage_ms_json(const Conversion& conversion);
