@@ -90,9 +90,10 @@ TEST(Measure, compares_the_qualities_of_a_manifest_with_a_reference_and_gives_a_
       run_vitrine("measure " + (folder / "shop.csv").string() + " --out " + out.string() + tiny + " --no-effects");
   ASSERT_EQ(again.exit_code, 0) << again.text;
   EXPECT_EQ(table(out / "references.csv").at(0).at("cpu_ms"), references[0].at("cpu_ms"));
-  std::map<std::string, std::string> mean;
   for (auto& row : table(out / "runs.csv"))
-    if (row["item"] == "sailor") EXPECT_EQ(row["mean_mm"], sailor[row["setting"]]["mean_mm"]);
+    if (row["item"] == "sailor") {
+      EXPECT_EQ(row["mean_mm"], sailor[row["setting"]]["mean_mm"]);
+    }
 }
 
 TEST(Measure, wrong_usage_is_told_with_a_remedy) {
