@@ -145,6 +145,12 @@ class Study {
     return made;
   }
 
+  /// What is balanced no better than fine is no reference for it; its row shows the residual.
+  bool is_reference(const Made& made) const {
+    const double fine = settings_of(Quality::fine).residual;
+    return made.comparable() && made.residual <= std::max(fine, 1.05 * o_.reference_residual);
+  }
+
   void compare_with_references() {
     reference_ = reference(false);
     const Made& a = reference_;
@@ -159,7 +165,7 @@ class Study {
     row.status_a = a.status;
     row.status_b = b.status;
     row.cpu_ms = a.cpu_ms + b.cpu_ms;
-    if (a.comparable() && b.comparable()) {
+    if (is_reference(a) && is_reference(b)) {
       const SurfaceDistance d = surface_distance(a.surface, b.surface);
       row.spread_mean_mm = d.mean_mm;
       row.spread_p95_mm = d.p95_mm;
@@ -169,7 +175,7 @@ class Study {
       row.spread_chest_mm = apart_mm(a.chest, b.chest);
     }
     out_.references.push_back(row);
-    if (!a.comparable()) return;
+    if (!is_reference(a)) return;
     for (std::size_t i = 0; i < made_.size(); ++i) {
       const Made& made = made_[i];
       RunRow& run = out_.runs[i];
@@ -203,7 +209,7 @@ class Study {
     for (const RunRow& run : out_.runs)
       if (run.setting == "fine") row.fine_cpu_ms = run.cpu_ms, row.fine_sewing_ms = run.sewing_ms;
     row.met = "unknown";
-    if (made.comparable() && reference_.comparable()) {
+    if (made.comparable() && is_reference(reference_)) {
       row.true_mm = surface_distance(made.surface, reference_.surface).mean_mm;
       row.met = *row.true_mm <= row.asked_mm ? "yes" : "no";
       say(text("asked %.1f mm: %.2f mm from the reference", row.asked_mm, *row.true_mm));
