@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "as_given.hpp"
+#include "budget.hpp"
 
 namespace vitrine {
 namespace {
@@ -82,7 +83,10 @@ void add_facts(Json& j, const ConvertRequest& request, const Conversion& item) {
                         {"iterations", l.iterations},
                         {"residual", l.residual},
                         {"change_mean_mm", l.change_mean_mm},
-                        {"change_max_mm", l.change_max_mm}});
+                        {"change_max_mm", l.change_max_mm},
+                        {"change_surface_mm", l.change_surface_mm},
+                        {"error_estimate_mm", l.error_estimate_mm},
+                        {"work_units", l.work}});
     j["fabric"] = {{"name", item.fabric.name}, {"stretch", item.fabric.stretch}, {"shear", item.fabric.shear},
                    {"bend", item.fabric.bend}, {"mass", item.fabric.mass},       {"friction", item.fabric.friction}};
     if (request.spring_k > 0) j["fabric"]["spring_k"] = request.spring_k;
@@ -105,6 +109,7 @@ void add_facts(Json& j, const ConvertRequest& request, const Conversion& item) {
                   {"modelled", d.modelled},
                   {"skipped", d.skipped}};
   }
+  if (request.budget.asked() && !d.status.empty()) j["budget"] = budget_as_json(request, item);
   if (item.texture.size() == 2)
     j["texture"] = {{"atlas_px", {item.garment.texture.width, item.garment.texture.height}},
                     {"front", texture_json(item.texture[0])},

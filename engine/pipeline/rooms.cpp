@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "budget.hpp"
+
 namespace vitrine {
 namespace {
 
@@ -36,16 +38,21 @@ void fill_inside(Image& labels) {
 
 }  // namespace
 
-QualityPlan plan_for(Quality quality) {
+Settings settings_of(Quality quality) {
+  Settings settings;
   switch (quality) {
     case Quality::draft:
-      return {{300}, 1e-2};
-    case Quality::fine:
-      return {{300, 2000, 6500, 20000}, 1e-3};
+      settings.level_nodes = {300};
+      settings.residual = 1e-2;
+      break;
     case Quality::standard:
+      settings.level_nodes = {300, 2000};
+      break;
+    case Quality::fine:
+      settings.level_nodes = {300, 2000, 6500, 20000};
       break;
   }
-  return {{300, 2000}, 1e-3};
+  return settings;
 }
 
 Rooms::Step Rooms::check_request() {
@@ -114,15 +121,14 @@ PanelOptions Rooms::panel_options(double edge_length) const {
 }
 
 Rooms::Step Rooms::cut_panels() {
-  plan_ = plan_for(request_.quality);
   // A first cut at a middling edge length only to learn the cloth's area.
   if (auto e = keep(make_panels(item_.front.features, item_.back.features, request_.garment, panel_options(0.03)),
                     item_.panels))
     return e;
-  const double area = polygon_area(item_.panels.front.outline) + polygon_area(item_.panels.back.outline);
+  const double area = cloth_area_ = polygon_area(item_.panels.front.outline) + polygon_area(item_.panels.back.outline);
   const double longest =
       std::min(longest_edge(request_.garment, item_.panels.front), longest_edge(request_.garment, item_.panels.back));
-  for (const int nodes : plan_.level_nodes) {
+  for (const int nodes : settings_.level_nodes) {
     // A hexagonal lattice of spacing h spends h^2 sqrt(3)/2 of area on each node.
     const double edge_length = std::min(longest, std::sqrt(area / (nodes * std::sqrt(3.0) / 2)));
     if (!levels_.empty() && edge_length > 0.95 * levels_.back().edge_length) continue;  // no finer than the one before
@@ -137,8 +143,9 @@ Rooms::Step Rooms::cut_panels() {
     pattern.edge_length = edge_length;
     pattern.metres_per_pixel = panels.metres_per_pixel_front;
     levels_.push_back(std::move(pattern));
-    item_.panels = std::move(panels);
+    cuts_.push_back(std::move(panels));
   }
+  item_.panels = cuts_.back();
   for (const auto& list : {item_.front.warnings(), item_.back.warnings(), item_.panels.warnings})
     for (const auto& warning : list)
       if (std::find(item_.warnings.begin(), item_.warnings.end(), warning) == item_.warnings.end())
@@ -146,17 +153,23 @@ Rooms::Step Rooms::cut_panels() {
   return std::nullopt;
 }
 
-Rooms::Step Rooms::mesh_levels() {
-  for (Pattern& pattern : levels_) {
-    MeshOptions options;
-    options.edge_length = pattern.edge_length;
-    for (const Panel& panel : pattern.panels) {
-      PanelMesh mesh;
-      if (auto e = keep(mesh_panel(panel.outline, options), mesh)) return e;
-      pattern.meshes.push_back(std::move(mesh));
-    }
+std::optional<Error> Rooms::mesh(Pattern& level) const {
+  MeshOptions options;
+  options.edge_length = level.edge_length;
+  for (const Panel& panel : level.panels) {
+    PanelMesh mesh;
+    if (auto e = keep(mesh_panel(panel.outline, options), mesh)) return e;
+    level.meshes.push_back(std::move(mesh));
   }
-  item_.pattern = levels_.back();
+  return std::nullopt;
+}
+
+Rooms::Step Rooms::mesh_levels() {
+  for (Pattern& level : levels_) {
+    if (auto e = mesh(level)) return e;
+    if (request_.budget.asked()) break;
+  }
+  item_.pattern = request_.budget.asked() ? levels_.front() : levels_.back();
   return std::nullopt;
 }
 
@@ -166,15 +179,39 @@ Rooms::Step Rooms::place() {
 
 Rooms::Step Rooms::sew() {
   SewingOptions options;
-  options.residual = plan_.residual;
+  options.residual = settings_.residual;
+  options.max_iterations = settings_.max_iterations;
+  options.max_weight_strain = settings_.max_weight_strain;
+  options.bending = settings_.bending;
+  options.friction = settings_.friction;
+  options.front_back = settings_.front_back;
+  options.contact_between_nodes = settings_.contact_between_nodes;
   options.spring_k = request_.spring_k;
   options.node_mass = request_.node_mass;
   if (request_.progress)
     options.progress = [&](int level, int, double) {
       request_.progress("sewing", static_cast<double>(level) / static_cast<double>(levels_.size()));
     };
-  if (auto e = keep(sew_and_drape(levels_, placed_, item_.fabric, request_.body->field, options), item_.drape))
-    return e;
+  const double rooms = work_of_rooms(request_, item_);
+  const Budget& budget = request_.budget;
+  options.max_error = budget.max_error;
+  // What the other rooms take is not there to be sewn with; a single step is the least there is.
+  if (budget.max_time > 0) options.max_work = std::max(1.0, budget.max_time * budget.work_rate - rooms);
+  PatternLevels levels;
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+    levels.nodes.push_back(
+        static_cast<int>(cloth_area_ / (levels_[l].edge_length * levels_[l].edge_length * std::sqrt(3.0) / 2)));
+  levels.at = [&](int level) -> Result<const Pattern*> {
+    if (levels_[level].meshes.empty())
+      if (auto e = mesh(levels_[level])) return *e;
+    return &levels_[level];
+  };
+  if (auto e = keep(sew_and_drape(levels, placed_, item_.fabric, request_.body->field, options), item_.drape)) return e;
+  if (budget.asked()) {
+    item_.pattern = levels_[item_.drape.level];
+    item_.panels = cuts_[item_.drape.level];
+    item_.budget = judge_budget(request_, item_.drape, rooms, item_.warnings);
+  }
   if (item_.drape.stretch_p99 > 0.35) item_.warnings.push_back("TIGHT_FIT");
   double lowest = 0;
   for (const auto& panel : item_.drape.positions)

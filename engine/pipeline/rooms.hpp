@@ -7,13 +7,6 @@
 
 namespace vitrine {
 
-/// Node counts (both panels) and residual of one quality.
-struct QualityPlan {
-  std::vector<int> level_nodes;
-  double residual;
-};
-QualityPlan plan_for(Quality quality);
-
 /// The steps of see(), one for each room. Each stops with the room's error, which is also kept in the view.
 std::optional<Error> load_view(const ViewRequest& request, View& view);
 std::optional<Error> outline_view(const ViewRequest& request, View& view);
@@ -32,7 +25,11 @@ std::optional<Error> keep(Result<T> result, T& place) {
 class Rooms {
  public:
   Rooms(const ConvertRequest& request, Conversion& item)
-      : request_(request), front_(view_of(request, Side::front)), back_(view_of(request, Side::back)), item_(item) {}
+      : request_(request),
+        settings_(request.settings.value_or(settings_of(request.quality))),
+        front_(view_of(request, Side::front)),
+        back_(view_of(request, Side::back)),
+        item_(item) {}
 
   using Step = std::optional<Error>;
 
@@ -65,12 +62,15 @@ class Rooms {
 
  private:
   PanelOptions panel_options(double edge_length) const;
+  std::optional<Error> mesh(Pattern& level) const;
 
   const ConvertRequest& request_;
+  const Settings settings_;
   const ViewRequest front_, back_;
   Conversion& item_;
-  QualityPlan plan_;
-  std::vector<Pattern> levels_;
+  std::vector<Panels> cuts_;     ///< one for each level
+  std::vector<Pattern> levels_;  ///< with a budget those beyond the first are meshed when they are needed
+  double cloth_area_ = 0;        ///< [m^2] of both panels
   Placement placed_;
 };
 

@@ -22,6 +22,7 @@ std::optional<Error> close_room(const char* room, const ViewRequest& request, Vi
 std::optional<Error> load_view(const ViewRequest& request, View& view) {
   PhotoOptions options;
   options.mirror = request.side == Side::back;
+  options.max_side = request.max_side;
   // A fault of the mask file names the mask, not the photo.
   view.error = keep(load_photo(request.photo, request.mask, options), view.photo);
   if (view.error && view.error->stage.empty()) view.error->stage = "photo";
@@ -65,6 +66,7 @@ ViewRequest view_of(const ConvertRequest& request, Side side) {
   ViewRequest view;
   static_cast<GarmentChoice&>(view) = request;
   view.side = side;
+  if (request.settings) view.max_side = request.settings->photo_side;
   const bool front_file = side == Side::front || request.mirror_back;
   view.photo = front_file ? request.front : request.back;
   view.mask = front_file ? request.front_mask : request.back_mask;

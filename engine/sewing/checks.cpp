@@ -53,6 +53,14 @@ std::optional<Error> check_options(const SewingOptions& o) {
     if (!std::isfinite(value) || value < 0 || value > 1e12)
       return usage("SEWING_OPTION", std::string("sewing option ") + name + " is " + number(value) + ".",
                    "Give k in N/m and m in kg, or 0 for the fabric's own.");
+  for (const auto& [name, value] : {std::pair{"max_error", o.max_error}, std::pair{"max_work", o.max_work}})
+    if (!std::isfinite(value) || value < 0)
+      return usage("SEWING_OPTION", std::string("sewing option ") + name + " is " + number(value) + ".",
+                   "Give a finite value above zero, or 0 for none.");
+  if ((o.max_error > 0 || o.max_work > 0) && (o.spring_k > 0 || o.node_mass > 0))
+    return usage("SEWING_OPTION",
+                 "spring_k and node_mass belong to one mesh, which max_error and max_work would choose.",
+                 "Leave out either.");
   const std::pair<const char*, double> positive[] = {
       {"residual", o.residual}, {"coarse_residual", o.coarse_residual}, {"offset", o.offset}};
   for (const auto& [name, value] : positive)
@@ -238,17 +246,33 @@ double column_weight(const Pattern& pattern, const Fabric& fabric, double gravit
   return fabric.mass * gravity * most;
 }
 
-std::optional<Error> check_input(std::span<const Pattern> levels, const Positions& placed, const Fabric& given,
-                                 const DistanceField& body, const SewingOptions& options) {
-  if (levels.empty() || levels.size() > most_levels)
-    return unusable("PATTERN_LEVELS", std::to_string(levels.size()) + " pattern levels cannot be sewn.",
+double nodes_of(const Pattern& pattern) {
+  double nodes = 0;
+  for (const PanelMesh& m : pattern.meshes) nodes += static_cast<double>(m.nodes.size());
+  return nodes;
+}
+
+std::optional<Error> check_count(const PatternLevels& levels) {
+  if (levels.nodes.empty() || levels.nodes.size() > most_levels)
+    return unusable("PATTERN_LEVELS", std::to_string(levels.nodes.size()) + " pattern levels cannot be sewn.",
                     "Give between 1 and 16 levels.");
+  return std::nullopt;
+}
+
+std::optional<Error> check_level(const Pattern& pattern, int level) {
+  const auto number = static_cast<std::size_t>(level);
+  if (auto e = check_pattern(pattern, number)) return e;
+  if (auto e = check_pieces(pattern, number)) return e;
+  return check_seams(pattern, number, nullptr);
+}
+
+std::optional<Error> check_input(const Pattern& first, const Pattern& measure, const Positions& placed,
+                                 const Fabric& given, const DistanceField& body, const SewingOptions& options) {
   if (auto e = check_options(options)) return e;
   if (auto e = check_fabric(given)) return e;
-  for (std::size_t l = 0; l < levels.size(); ++l)
-    if (auto e = check_pattern(levels[l], l)) return e;
+  if (auto e = check_pattern(first, 0)) return e;
   bool fits = placed.size() == 2;
-  for (std::size_t p = 0; fits && p < 2; ++p) fits = placed[p].size() == levels.front().meshes[p].nodes.size();
+  for (std::size_t p = 0; fits && p < 2; ++p) fits = placed[p].size() == first.meshes[p].nodes.size();
   if (!fits)
     return unusable("PLACEMENT", "the placed panels do not have the nodes of the first level.",
                     "Place the panels of the coarsest level.");
@@ -256,13 +280,11 @@ std::optional<Error> check_input(std::span<const Pattern> levels, const Position
     for (const Vec3& p : panel)
       if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1000)
         return unusable("PLACEMENT", "a placed node is not a place within 1 km.", "Place the panels again.");
-  for (std::size_t l = 0; l < levels.size(); ++l) {
-    if (auto e = check_pieces(levels[l], l)) return e;
-    if (auto e = check_seams(levels[l], l, l == 0 ? &placed : nullptr)) return e;
-  }
+  if (auto e = check_pieces(first, 0)) return e;
+  if (auto e = check_seams(first, 0, &placed)) return e;
   if (auto e = check_body(body, placed)) return e;
-  const Fabric fabric = as_sheet(levels.back(), given, options);
-  const double column = column_weight(levels.back(), fabric, options.gravity);
+  const Fabric fabric = as_sheet(measure, given, options);
+  const double column = column_weight(measure, fabric, options.gravity);
   const double strain = column / std::max(fabric.stretch, 1e-300);
   if (strain > 1)
     return usage("FABRIC_TOO_SOFT",

@@ -7,10 +7,15 @@
 
 namespace vitrine::sewing {
 
-/// Refuses what cannot be simulated: bad numbers, indices out of range, a fabric that cannot hold itself, panels that
-/// are not at the body.
-std::optional<Error> check_input(std::span<const Pattern> levels, const Positions& placed, const Fabric& fabric,
-                                 const DistanceField& body, const SewingOptions& options);
+/// Refuse what cannot be simulated: bad numbers, indices out of range, a fabric that cannot hold itself, panels that
+/// are not at the body. `measure` is the level that as_sheet() and column_weight() look at.
+std::optional<Error> check_input(const Pattern& first, const Pattern& measure, const Positions& placed,
+                                 const Fabric& fabric, const DistanceField& body, const SewingOptions& options);
+std::optional<Error> check_count(const PatternLevels& levels);
+std::optional<Error> check_level(const Pattern& pattern, int level);
+
+/// Nodes of both panels.
+double nodes_of(const Pattern& pattern);
 
 /// The fabric, with the options' spring_k and node_mass as what they come to on this mesh as a sheet (exact where it is
 /// equilateral).

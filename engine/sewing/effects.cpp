@@ -42,15 +42,21 @@ void list_effects(const SewingOptions& options, const SceneNotes& notes, Drape& 
   if (out.stiffness_cap > 0)
     skipped.push_back(
         text("stiffness above %.4g N/m: the shape would move by less than a millimetre", out.stiffness_cap));
-  if (notes.cut_in)
+  if (options.contact_between_nodes)
+    modelled.push_back("contact of all edges and triangles between their nodes, as asked");
+  else if (notes.cut_in)
     modelled.push_back("contact of all edges and triangles between their nodes: at first they cut into the body");
   else if (notes.between_nodes > 0)
     modelled.push_back(
         text("contact of edges and triangles between their nodes, in %d places where the body turns under them",
              notes.between_nodes));
-  if (!notes.cut_in)
+  if (!notes.cut_in && !options.contact_between_nodes)
     skipped.push_back("contact between nodes elsewhere: the edges are short enough to follow the body");
-  if (notes.crossed.crossed > 0) {
+  if (options.front_back == FrontBack::always) {
+    modelled.push_back("contact of front and back, as asked; now " + found(notes.left));
+  } else if (options.front_back == FrontBack::never) {
+    skipped.push_back("contact of front and back: switched off; " + found(notes.left));
+  } else if (notes.crossed.crossed > 0) {
     modelled.push_back("contact of front and back: at first " + found(notes.crossed) + "; now " + found(notes.left));
   } else if (notes.left.close == 0) {
     skipped.push_back("contact of front and back: the body parts them, and no two places touch");

@@ -8,6 +8,7 @@
 #include "checks.hpp"
 #include "contact.hpp"
 #include "effects.hpp"
+#include "estimate.hpp"
 #include "layers.hpp"
 #include "prolong.hpp"
 #include "relax.hpp"
@@ -25,6 +26,15 @@ constexpr double near_by = 0.03;   // [m] partners that start closer than this a
 constexpr int sewing_rounds = 4;
 constexpr double strain_bar = 0.8;  // [-] jersey and rib bear nearly double their width; beyond, cloth would tear
 constexpr double penetration_bar = 0.0005;  // [m]
+// A finer mesh is there to be made: estimates are up to 1.6 times too small for one item in ten.
+constexpr double safety = 1.3;
+constexpr double close_to_rest = 1e-2;  // [-] residual from which on a garment is worth showing
+
+// Work is counted in node steps: one step of one node of cloth. What else a level costs, in the same unit.
+constexpr double step_cost = 1, layers_cost = 1.5;
+constexpr double level_cost = 200;  // per node: springs, contact, lattices and welding
+constexpr double likely_steps = 1500,
+                 finishing_steps = 300;  // of a level, and from the coarse residual to close_to_rest
 
 std::string text(const char* format, double a, double b = 0) {
   char buffer[200];
@@ -57,12 +67,26 @@ double height(const Pattern& p) {
   return most;
 }
 
+/// One mesh level as it is worked on.
+struct Stage {
+  int level = 0;
+  const Pattern* pattern = nullptr;
+  Positions x, before;  ///< now, and as the level before left it
+  std::vector<char> weld;
+  Closing closing;
+  Nodes nodes;
+  Cloth cloth;
+  Contact contact;
+  double residual = 0;    ///< [-] where the relaxation ended
+  bool finished = false;  ///< brought to the final residual, and what was skipped was looked at
+};
+
 /// Walks the levels; one member function per step of the story.
 class Tailor {
  public:
-  Tailor(std::span<const Pattern> levels, const Fabric& fabric, const DistanceField& body, const SewingOptions& options)
-      : levels_(levels), fabric_(fabric), body_(body), o_(options) {
-    column_ = column_weight(levels.back(), fabric, o_.gravity);
+  Tailor(const PatternLevels& levels, const Fabric& fabric, double column, const DistanceField& body,
+         const SewingOptions& options)
+      : levels_(levels), fabric_(fabric), body_(body), o_(options), column_(column) {
     sheet_ = {fabric.stretch, fabric.shear, fabric.bend};
     if (column_ > 0 && o_.max_weight_strain > 0 && !(o_.spring_k > 0)) {
       // Beyond this stiffness the shape no longer moves by a millimetre, but the work grows with sqrt(k).
@@ -74,24 +98,38 @@ class Tailor {
     k_ = std::max(sheet_.stretch, sheet_.shear);
   }
 
-  Result<Drape> run(const Positions& placed) {
-    x_ = placed;
-    weld_.assign(pattern().pairs.size(), 0);
-    for (level_ = 0; level_ < static_cast<int>(levels_.size()); ++level_) {
-      if (level_ > 0) carry_to_finer();
-      if (fallen_) continue;  // keep the falling garment's shape on the finer mesh
-      if (!sew() || !drape()) return broken();
+  Result<Drape> run(const Pattern& first, const Positions& placed) {
+    now_.pattern = &first;
+    now_.x = placed;
+    now_.weld.assign(first.pairs.size(), 0);
+    for (;;) {
+      if (!fallen_ && (!sew() || !drape())) return broken();  // what falls keeps its shape on the finer meshes
+      if (given_up()) {
+        take_up_the_one_before();
+        if (!finish()) return broken();
+        break;
+      }
+      if (last()) break;
+      if (!fallen_ && (good_enough() || !time_for_another())) {
+        if (!finish()) return broken();
+        // The last steps may have brought to light that it was not.
+        if (!o_.max_error || good_enough() || !time_for_another()) break;
+      }
+      if (fallen_ && budgeted()) break;
+      if (auto e = carry_to_finer()) return *e;
     }
     return report();
   }
 
  private:
-  const Pattern& pattern() const { return levels_[level_]; }
+  const Pattern& pattern() const { return *now_.pattern; }
+  bool last() const { return now_.level + 1 == levels_.count(); }
+  bool budgeted() const { return o_.max_error > 0 || o_.max_work > 0; }
 
   Cloth cloth_of(const Nodes& nodes, int count) const {
-    Cloth cloth = build_cloth(pattern(), nodes, count, x_, sheet_, fabric_.mass, o_.gravity, o_.bending);
+    Cloth cloth = build_cloth(pattern(), nodes, count, now_.x, sheet_, fabric_.mass, o_.gravity, o_.bending);
     // The paper's own constants belong to one mesh, the last; coarser ones are the same cloth as a sheet.
-    if (level_ + 1 == static_cast<int>(levels_.size())) set_raw_constants(cloth, o_.spring_k, o_.node_mass);
+    if (last()) set_raw_constants(cloth, o_.spring_k, o_.node_mass);
     return cloth;
   }
 
@@ -107,142 +145,205 @@ class Tailor {
   bool sew() {
     const Pattern& p = pattern();
     const double dx = mean_edge(p);
-    const std::vector<double> start = gaps(p, x_);
+    steps_ = 0;
+    out_.work += level_cost * nodes_of(p);
+    work_before_ = out_.work;
+    const std::vector<double> start = gaps(p, now_.x);
     for (int round = 0; round < sewing_rounds; ++round) {
-      std::vector<char> left_alone = weld_;
+      std::vector<char> left_alone = now_.weld;
       if (round == 0)
-        for (std::size_t s = 0; s < start.size(); ++s) left_alone[s] = weld_[s] || start[s] > near_by;
+        for (std::size_t s = 0; s < start.size(); ++s) left_alone[s] = now_.weld[s] || start[s] > near_by;
       if (std::find(left_alone.begin(), left_alone.end(), 0) == left_alone.end()) continue;
       int count = 0;
-      const Nodes nodes = number_nodes(p, weld_, count);
+      const Nodes nodes = number_nodes(p, now_.weld, count);
       Cloth cloth = cloth_of(nodes, count);
       push_out(cloth, body_, o_.offset);
       Contact contact = contact_for(cloth, dx);
-      closing_ = close_seams(cloth, contact, p, nodes, left_alone, k_, dx, gap_bar);
-      gap_met_ = std::max(gap_met_, closing_.gap_met);
-      sewing_iterations_ += closing_.iterations;
-      x_ = scatter(cloth, nodes);
-      if (!closing_.finite) return false;
+      now_.closing = close_seams(cloth, contact, p, nodes, left_alone, k_, dx, gap_bar);
+      gap_met_ = std::max(gap_met_, now_.closing.gap_met);
+      steps_ += now_.closing.iterations;
+      out_.work += step_cost * now_.closing.iterations * cloth.size;
+      now_.x = scatter(cloth, nodes);
+      if (!now_.closing.finite) return false;
       bool sewed = false;
-      for (std::size_t s = 0; s < weld_.size(); ++s) {
-        if (weld_[s] || left_alone[s] || !closing_.met[s]) continue;
-        weld_[s] = 1;
+      for (std::size_t s = 0; s < now_.weld.size(); ++s) {
+        if (now_.weld[s] || left_alone[s] || !now_.closing.met[s]) continue;
+        now_.weld[s] = 1;
         sewed = true;
       }
-      if (round > 0 && (closing_.open == 0 || !sewed)) break;
+      if (round > 0 && (now_.closing.open == 0 || !sewed)) break;
     }
     return true;
   }
 
-  void carry_to_finer() {
+  std::optional<Error> carry_to_finer() {
     std::vector<int> open;
-    for (std::size_t s = 0; s < weld_.size(); ++s)
-      if (!weld_[s]) open.push_back(levels_[level_ - 1].pairs[s].seam);
-    const Pattern& coarse = levels_[level_ - 1];
-    for (std::size_t p = 0; p < 2; ++p) x_[p] = prolong(coarse.meshes[p], x_[p], pattern().meshes[p]);
+    for (std::size_t s = 0; s < now_.weld.size(); ++s)
+      if (!now_.weld[s]) open.push_back(pattern().pairs[s].seam);
+    if (o_.max_work > 0) kept_ = now_;
+    const Pattern& coarse = pattern();
+    const Result<const Pattern*> finer = levels_.at(now_.level + 1);
+    if (!finer) return finer.error();
+    if (auto e = check_level(**finer, now_.level + 1)) return e;
+    ++now_.level;
+    now_.pattern = *finer;
+    now_.finished = false;
+    layers_.reset();
+    for (std::size_t p = 0; p < 2; ++p) now_.x[p] = prolong(coarse.meshes[p], now_.x[p], pattern().meshes[p]);
     // A seam that has closed everywhere is sewn from the start: its partners differ only by the roundness of the
     // outlines between coarse nodes.
-    weld_.clear();
+    now_.weld.clear();
     for (const NodePair& q : pattern().pairs)
-      weld_.push_back(std::find(open.begin(), open.end(), q.seam) == open.end());
+      now_.weld.push_back(std::find(open.begin(), open.end(), q.seam) == open.end());
+    return std::nullopt;
   }
 
+  /// The cloth of this level to its residual: the final one on the last level, else the coarse one.
   bool drape() {
-    const bool last = level_ + 1 == static_cast<int>(levels_.size());
-    const double dx = mean_edge(pattern());
     int count = 0;
-    nodes_ = number_nodes(pattern(), weld_, count);
-    Cloth cloth = cloth_of(nodes_, count);
-    cloth.seams = springs_for(pattern(), nodes_, weld_, closing_.k, closing_.cap);
-    const Positions before = scatter(cloth, nodes_);
-    push_out(cloth, body_, o_.offset);
-    contact_ = contact_for(cloth, dx);
+    now_.nodes = number_nodes(pattern(), now_.weld, count);
+    now_.cloth = cloth_of(now_.nodes, count);
+    now_.cloth.seams = springs_for(pattern(), now_.nodes, now_.weld, now_.closing.k, now_.closing.cap);
+    now_.before = scatter(now_.cloth, now_.nodes);
+    push_out(now_.cloth, body_, o_.offset);
+    now_.contact = contact_for(now_.cloth, mean_edge(pattern()));
+    // Where the time runs out there has to be some left for bringing the level before to rest.
+    const double limit = kept_ ? o_.max_work - finishing_steps * kept_->cloth.size * step_cost : o_.max_work;
+    if (last()) return relax_to(o_.residual, limit) && (given_up() || finish());
+    return relax_to(std::max(o_.residual, o_.coarse_residual), limit) && record();
+  }
 
-    RelaxOptions r;
-    r.residual = last ? o_.residual : std::max(o_.residual, o_.coarse_residual);
-    r.max_iterations = o_.max_iterations;
-    r.friction = o_.friction ? fabric_.friction : 0;
-    r.step_limit = std::min(0.02, dx);
-    const double start = middle(cloth).y(), drop = std::max(0.3, 0.6 * height(pattern()));
-    r.stop = [&](int it, double residual) {
-      if (o_.progress && it % 100 == 0) o_.progress(level_, it, residual);
-      fallen_ = start - middle(cloth).y() > drop;
-      return fallen_;
-    };
-    RelaxOutcome done = relax(cloth, &contact_, r);
-    x_ = scatter(cloth, nodes_);
-    const auto relax_again = [&](Layers* layers) {
-      const int before_this = done.iterations;
-      done = relax(cloth, &contact_, r, layers);
-      done.iterations += before_this;
-      x_ = scatter(cloth, nodes_);
-    };
-    // What was skipped because the scene did not seem to need it is looked at now, and turned on where it mattered.
-    if (last && done.finite && !fallen_ && measure_penetration(pattern(), x_, body_) > penetration_bar) {
+  /// To the final residual; and what was skipped because the scene did not seem to need it is looked at, and turned on
+  /// where it mattered.
+  bool finish() {
+    if (now_.finished || fallen_) return record();
+    now_.finished = true;
+    if (!last() && now_.residual > o_.residual && !relax_to(o_.residual, o_.max_work)) return false;
+    if (!fallen_ && (o_.contact_between_nodes || measure_penetration(pattern(), now_.x, body_) > penetration_bar)) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;
-      contact_ = contact_for(cloth, dx);
-      relax_again(nullptr);
+      now_.contact = contact_for(now_.cloth, mean_edge(pattern()));
+      if (!relax_to(o_.residual, o_.max_work)) return false;
     }
-    if (last && done.finite && !fallen_) {
-      crossed_before_ = detect_self_contact(pattern(), nodes_, x_);
-      if (crossed_before_.crossed > 0) {
-        layers_.emplace(pattern(), nodes_, 0.3 * k_);
-        relax_again(&*layers_);
+    if (!fallen_ && o_.front_back != FrontBack::never) {
+      crossed_before_ = detect_self_contact(pattern(), now_.nodes, now_.x);
+      if (crossed_before_.crossed > 0 || o_.front_back == FrontBack::always) {
+        layers_.emplace(pattern(), now_.nodes, 0.3 * k_);
+        if (!relax_to(o_.residual, o_.max_work)) return false;
       }
     }
-    out_.energy = done.energy;
+    return record();
+  }
 
-    LevelFigures f;
-    f.nodes = cloth.size;
-    f.iterations = done.iterations + sewing_iterations_;
-    sewing_iterations_ = 0;
-    f.residual = done.residual;
-    if (level_ > 0) {
+  /// One relaxation of the level's cloth. `limit` [node steps] of all work so far ends it early, but not before the
+  /// cloth is close to rest, unless there is a level before to go back to.
+  bool relax_to(double residual, double limit) {
+    RelaxOptions r;
+    r.residual = residual;
+    r.max_iterations = o_.max_iterations;
+    r.friction = o_.friction ? fabric_.friction : 0;
+    r.step_limit = std::min(0.02, mean_edge(pattern()));
+    const double start = middle(now_.cloth).y(), drop = std::max(0.3, 0.6 * height(pattern()));
+    const double cost = (layers_ ? layers_cost : step_cost) * now_.cloth.size;
+    bool over = false;
+    r.stop = [&](int it, double at) {
+      if (o_.progress && it % 100 == 0) o_.progress(now_.level, it, at);
+      fallen_ = start - middle(now_.cloth).y() > drop;
+      over = o_.max_work > 0 && out_.work + cost * it >= limit && (at <= close_to_rest || kept_);
+      return fallen_ || over;
+    };
+    const RelaxOutcome done = relax(now_.cloth, &now_.contact, r, layers_ ? &*layers_ : nullptr);
+    out_.work += cost * done.iterations;
+    out_.out_of_work = out_.out_of_work || over;
+    steps_ += done.iterations;
+    now_.x = scatter(now_.cloth, now_.nodes);
+    now_.residual = done.residual;
+    out_.energy = done.energy;
+    return done.finite;
+  }
+
+  /// Fills in the level's line of the report, or fills it in anew.
+  bool record() {
+    if (static_cast<int>(out_.levels.size()) == now_.level) out_.levels.emplace_back();
+    LevelFigures& f = out_.levels.back();
+    f.nodes = now_.cloth.size;
+    f.edge_mm = 1000 * mean_edge(pattern());
+    f.iterations = steps_;
+    f.residual = now_.residual;
+    f.work = out_.work - work_before_;
+    f.loose_share = loose_share(pattern(), now_.x, body_, o_.offset);
+    if (now_.level > 0) {
       double sum = 0, most = 0;
       std::size_t number = 0;
       for (std::size_t p = 0; p < 2; ++p)
-        for (std::size_t i = 0; i < x_[p].size(); ++i, ++number) {
-          const double moved = (x_[p][i] - before[p][i]).norm();
+        for (std::size_t i = 0; i < now_.x[p].size(); ++i, ++number) {
+          const double moved = (now_.x[p][i] - now_.before[p][i]).norm();
           sum += moved;
           most = std::max(most, moved);
         }
       f.change_mean_mm = 1000 * sum / static_cast<double>(number);
       f.change_max_mm = 1000 * most;
+      f.change_surface_mm = 1000 * surface_change(pattern(), now_.before, now_.x);
     }
-    out_.levels.push_back(f);
-    return done.finite;
+    f.error_estimate_mm = estimate_error(out_.levels);
+    return true;
+  }
+
+  bool good_enough() const {
+    return o_.max_error > 0 && safety * out_.levels.back().error_estimate_mm <= 1e3 * o_.max_error;
+  }
+
+  /// Whether the work that is left may bring the next level to rest; that takes about as many steps on every mesh.
+  bool time_for_another() {
+    if (!(o_.max_work > 0)) return true;
+    const double next = levels_.nodes[now_.level + 1];
+    ran_out_ = out_.out_of_work || out_.work + next * (level_cost + step_cost * likely_steps) > o_.max_work;
+    return !ran_out_;
+  }
+
+  /// The work ran out on a level that had not come close to rest.
+  bool given_up() const { return out_.out_of_work && kept_ && now_.residual > close_to_rest; }
+
+  void take_up_the_one_before() {
+    now_ = *std::move(kept_);
+    kept_.reset();
+    layers_.reset();
+    out_.levels.resize(now_.level + 1);
+    steps_ = out_.levels.back().iterations;
+    work_before_ = out_.work - out_.levels.back().work;
+    ran_out_ = true;
   }
 
   Result<Drape> report() {
-    level_ = static_cast<int>(levels_.size()) - 1;
     int count = 0;
-    nodes_ = number_nodes(pattern(), weld_, count);
-    Cloth cloth = cloth_of(nodes_, count);
-    cloth.seams = springs_for(pattern(), nodes_, weld_, closing_.k, closing_.cap);
-    x_ = scatter(cloth, nodes_);
-    if (fallen_) contact_ = contact_for(cloth, mean_edge(pattern()));
+    now_.nodes = number_nodes(pattern(), now_.weld, count);
+    Cloth cloth = cloth_of(now_.nodes, count);
+    cloth.seams = springs_for(pattern(), now_.nodes, now_.weld, now_.closing.k, now_.closing.cap);
+    now_.x = scatter(cloth, now_.nodes);
+    out_.out_of_work = out_.out_of_work || ran_out_;
+    if (fallen_) now_.contact = contact_for(cloth, mean_edge(pattern()));
     const double mu = o_.friction ? fabric_.friction : 0;
-    out_.residual = residual_of(cloth, &contact_, mu, layers_ ? &*layers_ : nullptr);
-    const Strains strain = measure_strain(pattern(), x_);
+    out_.residual = residual_of(cloth, &now_.contact, mu, layers_ ? &*layers_ : nullptr);
+    const Strains strain = measure_strain(pattern(), now_.x);
     out_.strain_p99 = strain.p99;
     out_.stretch_p99 = strain.stretch_p99;
     out_.strain_max = strain.most;
-    out_.penetration_mm_max = 1000 * measure_penetration(pattern(), x_, body_);
-    out_.seam_gap_mm_max = 1000 * std::max(gap_met_, closing_.open > 0 ? closing_.gap_open : 0.0);
-    out_.welded = nodes_;
-    out_.positions = x_;
-    const SelfContact self = detect_self_contact(pattern(), nodes_, x_);
+    out_.penetration_mm_max = 1000 * measure_penetration(pattern(), now_.x, body_);
+    out_.seam_gap_mm_max = 1000 * std::max(gap_met_, now_.closing.open > 0 ? now_.closing.gap_open : 0.0);
+    out_.welded = now_.nodes;
+    out_.positions = now_.x;
+    out_.level = now_.level;
+    const SelfContact self = detect_self_contact(pattern(), now_.nodes, now_.x);
     out_.self_touching = self.close;
     out_.self_crossed = self.crossed;
     out_.self_crossed_mm_max = 1000 * self.depth;
-    out_.error_estimate_mm = estimate_error();
+    if (!fallen_) out_.error_estimate_mm = out_.levels.back().error_estimate_mm;
     judge();
     SceneNotes notes;
     notes.bend = sheet_.bend;
     notes.friction = fabric_.friction;
     notes.voxels_in_reach = share_in_reach();
-    notes.between_nodes = static_cast<int>(contact_.samples.size()) - cloth.size;
+    notes.between_nodes = static_cast<int>(now_.contact.samples.size()) - cloth.size;
     notes.cut_in = middles_;
     notes.crossed = crossed_before_;
     notes.left = self;
@@ -250,20 +351,10 @@ class Tailor {
     return std::move(out_);
   }
 
-  /// What the next halvings of the edges would still move, from what the last one moved: the changes of a method of
-  /// first order in the edge length are a geometric row. Contact with friction is of no higher order.
-  std::optional<double> estimate_error() const {
-    if (out_.levels.size() < 2) return std::nullopt;
-    const LevelFigures &last = out_.levels.back(), &before = out_.levels[out_.levels.size() - 2];
-    const double ratio = std::sqrt(static_cast<double>(last.nodes) / before.nodes);
-    if (!(ratio > 1.05)) return std::nullopt;
-    return last.change_mean_mm / (ratio - 1);
-  }
-
   /// Share of the field's voxels in the garment's box.
   double share_in_reach() const {
-    Vec3 lo = x_[0][0], hi = lo;
-    for (const auto& panel : x_)
+    Vec3 lo = now_.x[0][0], hi = lo;
+    for (const auto& panel : now_.x)
       for (const Vec3& p : panel) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
     double share = 1;
     for (int a = 0; a < 3; ++a) {
@@ -280,10 +371,10 @@ class Tailor {
     if (fallen_) {
       out_.status = "NOT_SUPPORTED";
       out_.detail = "Nothing holds the garment: it slid off the body and kept falling.";
-    } else if (closing_.open > 0) {
+    } else if (now_.closing.open > 0) {
       out_.status = "SEAM_OPEN";
-      out_.detail =
-          text("%.0f sewn pairs did not meet; the widest gap is %.1f mm.", closing_.open, 1000 * closing_.gap_open);
+      out_.detail = text("%.0f sewn pairs did not meet; the widest gap is %.1f mm.", now_.closing.open,
+                         1000 * now_.closing.gap_open);
     } else if (out_.penetration_mm_max > 1000 * penetration_bar) {
       out_.status = "INSIDE_BODY";
       out_.detail = text("The cloth lies up to %.1f mm inside the body.", out_.penetration_mm_max);
@@ -304,23 +395,21 @@ class Tailor {
 
   Error broken() const {
     return {Cause::internal, "NOT_FINITE",
-            "the relaxation left the range of numbers on level " + std::to_string(level_) + ".",
+            "the relaxation left the range of numbers on level " + std::to_string(now_.level) + ".",
             "Report the garment and fabric that did this; another edge length may avoid it.", "sewing"};
   }
 
-  std::span<const Pattern> levels_;
+  const PatternLevels& levels_;
   const Fabric fabric_;  ///< as a sheet
   const DistanceField& body_;
   const SewingOptions& o_;
   SheetStiffness sheet_;
   double column_ = 0, k_ = 0, gap_met_ = 0;
-  Positions x_;
-  Nodes nodes_;
-  std::vector<char> weld_;
-  Closing closing_;
-  Contact contact_;
-  int level_ = 0, sewing_iterations_ = 0;
-  bool fallen_ = false;
+  Stage now_;
+  std::optional<Stage> kept_;  ///< the level before, while a budget of work may bring us back to it
+  int steps_ = 0;              ///< of this level
+  double work_before_ = 0;     ///< [node steps] of the levels before
+  bool fallen_ = false, ran_out_ = false;
   bool middles_ = false;  ///< contact between the nodes was found to matter
   SelfContact crossed_before_;
   std::optional<Layers> layers_;  ///< front and back were found to cross
@@ -329,10 +418,29 @@ class Tailor {
 
 }  // namespace
 
+Result<Drape> sew_and_drape(const PatternLevels& levels, const std::vector<std::vector<Vec3>>& placed,
+                            const Fabric& fabric, const DistanceField& body, const SewingOptions& options) {
+  if (auto e = sewing::check_count(levels)) return *e;
+  const Result<const Pattern*> first = levels.at(0);
+  if (!first) return first.error();
+  // The paper's own constants are those of the last mesh, which is then needed from the start.
+  const bool raw = options.spring_k > 0 || options.node_mass > 0;
+  const Result<const Pattern*> measure = levels.at(raw ? levels.count() - 1 : 0);
+  if (!measure) return measure.error();
+  if (auto e = sewing::check_input(**first, **measure, placed, fabric, body, options)) return *e;
+  const Fabric sheet = sewing::as_sheet(**measure, fabric, options);
+  const double column = sewing::column_weight(**measure, sheet, options.gravity);
+  return Tailor(levels, sheet, column, body, options).run(**first, placed);
+}
+
 Result<Drape> sew_and_drape(std::span<const Pattern> levels, const std::vector<std::vector<Vec3>>& placed,
                             const Fabric& fabric, const DistanceField& body, const SewingOptions& options) {
-  if (auto e = sewing::check_input(levels, placed, fabric, body, options)) return *e;
-  return Tailor(levels, sewing::as_sheet(levels.back(), fabric, options), body, options).run(placed);
+  PatternLevels given;
+  for (const Pattern& p : levels) given.nodes.push_back(static_cast<int>(sewing::nodes_of(p)));
+  given.at = [&](int level) -> Result<const Pattern*> { return &levels[level]; };
+  for (std::size_t l = 1; l < levels.size() && l < 16; ++l)
+    if (auto e = sewing::check_level(levels[l], static_cast<int>(l))) return *e;
+  return sew_and_drape(given, placed, fabric, body, options);
 }
 
 }  // namespace vitrine

@@ -15,7 +15,7 @@ std::string to_text(const Json& json) {
 }
 
 /// What one conversion leaves in report.jsonl: enough to sort a night's work by, the rest is in the item's report.json.
-Json report_of(const Conversion& item) {
+Json report_of(const Conversion& item, const ConvertRequest* request = nullptr) {
   Json line = Json::object();
   if (item.error)
     line = {{"code", item.error->code},
@@ -28,6 +28,8 @@ Json report_of(const Conversion& item) {
                  {"seam_gap_mm_max", item.drape.seam_gap_mm_max},
                  {"penetration_mm_max", item.drape.penetration_mm_max},
                  {"strain_p99", item.drape.strain_p99}});
+  if (const std::string budget = request ? budget_json(*request, item) : ""; !budget.empty())
+    line["budget"] = Json::parse(budget);
   if (!item.warnings.empty()) line["warnings"] = item.warnings;
   return line;
 }
@@ -68,9 +70,9 @@ struct SizeRun {
   int made = 0;
   std::map<std::string, double> ms;
 
-  void add(const std::string& name, const Conversion& item) {
+  void add(const std::string& name, const Conversion& item, const ConvertRequest& request) {
     Json size{{"size", name}, {"exit_code", item.exit_code()}};
-    size.update(report_of(item));
+    size.update(report_of(item, &request));
     sizes.push_back(std::move(size));
     for (const auto& [stage, value] : item.stage_ms) ms[stage] += value;
     if (!item.error)
@@ -91,6 +93,20 @@ struct SizeRun {
 
 }  // namespace
 
+ConvertRequest request_of(const CatalogItem& row) {
+  ConvertRequest request;
+  request.name = row.sku;
+  request.front = row.front;
+  request.back = row.back;
+  request.front_mask = row.front_mask;
+  request.back_mask = row.back_mask;
+  request.mirror_back = row.mirror_back;
+  request.fabric = row.fabric;
+  request.chest = row.chest_cm.value_or(0) / 100;
+  request.length = row.length_cm.value_or(0) / 100;
+  return request;
+}
+
 std::string ItemKitchen::settings_of(const CatalogItem& row) const {
   std::string text = settings;
   for (const std::string& name : mannequins_of(row)) text += "mannequin " + shelf.identity(name) + "\n";
@@ -108,16 +124,7 @@ std::optional<Error> ItemKitchen::prepare(const CatalogItem& row) const {
 
 ItemOutcome ItemKitchen::convert_item(const CatalogItem& row, const std::string& folder) const {
   if (row.refusal) return refuse(*row.refusal);
-  ConvertRequest request;
-  request.name = row.sku;
-  request.front = row.front;
-  request.back = row.back;
-  request.front_mask = row.front_mask;
-  request.back_mask = row.back_mask;
-  request.mirror_back = row.mirror_back;
-  request.fabric = row.fabric;
-  request.chest = row.chest_cm.value_or(0) / 100;
-  request.length = row.length_cm.value_or(0) / 100;
+  ConvertRequest request = request_of(row);
   request.thumbnail = true;
   request.times_in_report = false;
   if (auto e = job.apply(request)) return refuse(*e);
@@ -138,7 +145,7 @@ ItemOutcome ItemKitchen::convert_item(const CatalogItem& row, const std::string&
     if (auto e = write_conversion(request, seen, folder)) return refuse(*e);
     if (seen.error)
       if (auto e = write_overlays(request, seen, folder)) return refuse(*e);
-    return {seen.exit_code(), to_text(report_of(seen)), false, stage_ms_json(seen)};
+    return {seen.exit_code(), to_text(report_of(seen, &request)), false, stage_ms_json(seen)};
   }
 
   SizeRun run;
@@ -156,7 +163,7 @@ ItemOutcome ItemKitchen::convert_item(const CatalogItem& row, const std::string&
     if (auto e = write_conversion(request, item, place)) return refuse(*e);
     if (item.error)
       if (auto e = write_overlays(request, item, place)) return refuse(*e);
-    run.add(size, item);
+    run.add(size, item, request);
     if (!item.error && run.made == 1)
       if (auto e = write_file(folder + "/thumb.jpg", item.thumbnail)) return refuse(*e);
   }

@@ -8,6 +8,9 @@
 
 namespace vitrine::cli {
 
+/// What a row says of its item; the garment's template is still to be chosen.
+ConvertRequest request_of(const CatalogItem& row);
+
 /// What every item of a catalogue is made with.
 struct ItemKitchen {
   const PluginRegistry& registry;

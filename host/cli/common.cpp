@@ -145,6 +145,12 @@ Result<std::shared_ptr<const Body>> MannequinOptions::make_body() const {
 void JobOptions::add_to(CLI::App& app) {
   app.add_option("--quality", quality, "draft (about 300 nodes), standard (2,000) or fine (20,000)")
       ->check(CLI::IsMember({"draft", "standard", "fine"}))
+      ->default_str("standard; fine with --max-error or --max-time, whose upper limit it is");
+  app.add_option("--max-error", max_error_mm,
+                 "The coarsest mesh whose estimated mean distance [mm] to ever finer ones is within this");
+  app.add_option("--max-time", max_time_s,
+                 "The finest mesh that takes no more than this [s] of a processor, reckoned by --work-rate");
+  app.add_option("--work-rate", work_rate, "Work units per second of this machine, as --max-time reckons")
       ->capture_default_str();
   app.add_flag("--debug-images", debug_images, "Also write pictures of silhouette, feature points and mesh");
   app.add_option("--format", formats, "Also write the garment as obj or ply; may be given twice")
@@ -187,7 +193,17 @@ std::optional<Error> JobOptions::apply(ConvertRequest& request) const {
   const auto usage = [](const std::string& message, const std::string& remedy) {
     return Error{Cause::usage, "USAGE", message, remedy, ""};
   };
-  request.quality = quality == "draft" ? Quality::draft : quality == "fine" ? Quality::fine : Quality::standard;
+  const std::pair<const char*, std::optional<double>> positive[] = {
+      {"--max-error", max_error_mm}, {"--max-time", max_time_s}, {"--work-rate", work_rate}};
+  for (const auto& [name, value] : positive)
+    if (value && !(std::isfinite(*value) && *value > 0))
+      return usage(std::string(name) + " is not a number above zero",
+                   std::string("give ") + name + " a number above zero, or leave it out");
+  request.budget.max_error = max_error_mm.value_or(0) / 1e3;
+  request.budget.max_time = max_time_s.value_or(0);
+  request.budget.work_rate = work_rate;
+  const std::string chosen = !quality.empty() ? quality : request.budget.asked() ? "fine" : "standard";
+  request.quality = chosen == "draft" ? Quality::draft : chosen == "fine" ? Quality::fine : Quality::standard;
   request.debug_images = debug_images;
   request.formats.clear();
   for (const std::string& format : formats)

@@ -36,7 +36,9 @@ struct MannequinOptions {
 
 /// What of a conversion is chosen on the command line and the same for a whole catalogue.
 struct JobOptions {
-  std::string quality = "standard";
+  std::string quality;  ///< empty: standard, or fine where max_error or max_time choose the mesh
+  std::optional<double> max_error_mm, max_time_s;
+  double work_rate = Budget::usual_rate;
   bool debug_images = false;
   std::vector<std::string> formats;
   bool compress = false;
@@ -64,6 +66,7 @@ void add_convert(CLI::App& app, int& exit_code);
 void add_catalog(CLI::App& app, int& exit_code);
 void add_features(CLI::App& app, int& exit_code);
 void add_mannequin(CLI::App& app, int& exit_code);
+void add_measure(CLI::App& app, int& exit_code);
 void add_plugin(CLI::App& app, int& exit_code);
 /// `vitrine plugin new NAME`: a project to start a plugin from.
 void add_plugin_new(CLI::App& plugin_command, int& exit_code);

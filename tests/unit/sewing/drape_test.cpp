@@ -178,11 +178,13 @@ TEST(Drape, finer_meshes_agree_with_coarser_ones) {
   EXPECT_LT(fine.levels.back().change_mean_mm, 15);
 }
 
-TEST(Drape, the_error_estimate_needs_two_levels_and_covers_what_the_next_one_changes) {
-  EXPECT_FALSE(dress(scene::vest(), {0.05}).error_estimate_mm);
-  const Drape standard = dress(scene::vest(), {0.05, 0.025}), fine = dress(scene::vest(), {0.05, 0.025, 0.0125});
-  ASSERT_TRUE(standard.error_estimate_mm && fine.error_estimate_mm);
-  EXPECT_GT(*standard.error_estimate_mm, 0.5 * fine.levels.back().change_mean_mm);
+TEST(Drape, the_error_estimate_falls_from_level_to_level_and_covers_half_of_what_the_next_one_changes) {
+  const Drape draft = dress(scene::vest(), {0.05}), standard = dress(scene::vest(), {0.05, 0.025}),
+              fine = dress(scene::vest(), {0.05, 0.025, 0.0125});
+  ASSERT_TRUE(draft.error_estimate_mm && standard.error_estimate_mm && fine.error_estimate_mm);
+  EXPECT_GT(*draft.error_estimate_mm, 0.5 * standard.levels.back().change_surface_mm);
+  EXPECT_GT(*standard.error_estimate_mm, 0.5 * fine.levels.back().change_surface_mm);
+  EXPECT_LT(*standard.error_estimate_mm, *draft.error_estimate_mm);
   EXPECT_LT(*fine.error_estimate_mm, *standard.error_estimate_mm);
 }
 

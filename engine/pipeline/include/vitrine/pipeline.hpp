@@ -22,8 +22,39 @@
 
 namespace vitrine {
 
-/// How much work one item may cost: node counts (both panels) of the mesh levels, and the force residual to stop at.
+/// How much work one item may cost, as a user asks for it.
 enum class Quality { draft, standard, fine };
+
+/// Everything that trades work for accuracy. A quality is one of these with a name; `vitrine measure` varies the rest.
+struct Settings {
+  std::vector<int> level_nodes;     ///< nodes (both panels) of the mesh levels, coarse to fine
+  double residual = 1e-3;           ///< [-] force residual of the last level to stop at
+  int max_iterations = 60'000;      ///< per level
+  double max_weight_strain = 1e-3;  ///< [-] see SewingOptions: where stiffness is capped; 0 = nowhere
+  bool bending = true, friction = true;
+  FrontBack front_back = FrontBack::where_crossed;
+  bool contact_between_nodes = false;
+  int photo_side = PhotoOptions{}.max_side;  ///< [px] larger photos are reduced to this
+};
+Settings settings_of(Quality quality);
+
+/// What a user asks of accuracy and time: the cheapest mesh level that meets it is made, none finer than the quality's.
+struct Budget {
+  /// [node steps/s] One core of a 2.5 GHz Xeon of 2019, see docs/ARCHITECTURE.md; seconds become work by it, once.
+  static constexpr double usual_rate = 18e6;
+  double max_error = 0;  ///< [m] by the item's own estimate; 0 = none asked
+  double max_time = 0;   ///< [s] of a processor, without the mannequin, which items share; 0 = none asked
+  double work_rate = usual_rate;
+  bool asked() const { return max_error > 0 || max_time > 0; }
+};
+
+/// What became of it.
+struct BudgetFigures {
+  double work = 0, allowed_work = 0;  ///< [node steps] all rooms
+  double spent_s = 0;                 ///< [s] the work at the budget's rate
+  bool error_met = true, time_met = true;
+  std::string ended_by;  ///< error, time or quality (there is no finer mesh)
+};
 
 /// A mannequin with its voxels, made once and shared by every item that is dressed on it.
 struct Body {
@@ -45,6 +76,7 @@ struct ViewRequest : GarmentChoice {
   std::string photo;  ///< file
   std::string mask;   ///< file; may be empty
   Side side = Side::front;
+  int max_side = PhotoOptions{}.max_side;  ///< [px] a larger photo is reduced to this
 };
 
 /// One photo after the rooms photo, silhouette and features; everything in the front frame.
@@ -101,6 +133,8 @@ struct ConvertRequest : GarmentChoice {
   double spring_k = 0, node_mass = 0;  ///< [N/m], [kg] the paper's own constants, see SewingOptions; 0 = the fabric's
   double chest = 0, length = 0;        ///< [m] flat measurements as the shop lists them; 0 = unknown
   Quality quality = Quality::standard;
+  std::optional<Settings> settings;  ///< in place of the quality's
+  Budget budget;
   bool debug_images = false;
   std::vector<MeshFormat> formats;  ///< also write the garment as these
   bool compress = false;            ///< also write copies for a web page
@@ -126,9 +160,10 @@ struct Conversion {
   std::optional<Error> error;
   View front, back;
   Panels panels;
-  Pattern pattern;  ///< of the finest level
+  Pattern pattern;  ///< of the finest level that was sewn
   Fabric fabric;
   Drape drape;
+  BudgetFigures budget;                 ///< when one was asked for
   std::vector<TextureFigures> texture;  ///< front, back
   RenderMesh garment, mannequin;
   Bytes garment_glb, dressed_glb, preview_png;
@@ -176,6 +211,9 @@ std::vector<FabricDrape> cut_and_sew_fabrics(const ConvertRequest& request, std:
 /// report.json: status, reason, features in pixels of the photos as given, mesh, drape and texture figures, how the
 /// files stand to the limits of shops ("commerce"), milliseconds per room.
 std::string report_json(const ConvertRequest& request, const Conversion& conversion);
+
+/// What was asked of accuracy and time and what became of it, a JSON object; empty when nothing was asked or sewn.
+std::string budget_json(const ConvertRequest& request, const Conversion& conversion);
 
 /// Milliseconds of processor time per room, a JSON object.
 std::string stage_ms_json(const Conversion& conversion);

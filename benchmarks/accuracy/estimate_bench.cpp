@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// vitrine-estimate-bench: the error estimate of each mesh level against the distance to a finer reference, as CSV. Run
+// by hand; never part of a test.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+#include "surface_distance.hpp"
+#include "vitrine/catalog.hpp"
+#include "vitrine/host/registry.hpp"
+#include "vitrine/pipeline.hpp"
+
+namespace {
+
+using namespace vitrine;
+namespace fs = std::filesystem;
+
+struct Item {
+  std::string name, garment, front, back;  ///< back: empty where the front is mirrored
+  double chest = 0, length = 0;            ///< [m]
+};
+
+/// Fronts listed in a folder's index.tsv (file, garment, neckline, view, ...), of the garments that are loaded.
+std::vector<Item> marked_photos(const fs::path& folder, const PluginRegistry& registry) {
+  std::vector<Item> items;
+  std::ifstream index(folder / "index.tsv");
+  std::string line;
+  while (std::getline(index, line)) {
+    std::istringstream row(line);
+    std::string file, garment, neckline, view;
+    for (auto* field : {&file, &garment, &neckline, &view}) std::getline(row, *field, '\t');
+    if (garment == "longsleeve") garment = "long_sleeve";
+    if (garment == "tshirt") garment = "t_shirt";
+    if (view != "front" || !registry.find_garment(garment)) continue;
+    Item item{file.substr(0, file.find("-front")), garment, (folder / file).string(), ""};
+    file.replace(file.find("front"), 5, "back");
+    if (fs::exists(folder / file)) item.back = (folder / file).string();
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
+template <class T>
+T must(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().code + ": " + result.error().message);
+  return *std::move(result);
+}
+
+std::vector<Item> of_manifest(const std::string& file) {
+  std::vector<Item> items;
+  for (const CatalogItem& row : must(read_manifest(file)))
+    items.push_back({row.sku, row.garment, row.front, row.mirror_back ? "" : row.back, row.chest_cm.value_or(0) / 100,
+                     row.length_cm.value_or(0) / 100});
+  return items;
+}
+
+std::shared_ptr<const Body> body_of(const std::string& who) {
+  auto body = std::make_shared<Body>();
+  const auto preset = preset_measurements(who);
+  body->mannequin = must(preset ? build_mannequin(*preset) : import_mannequin(who));
+  body->field = must(voxelise(body->mannequin.mesh));
+  return body;
+}
+
+bench::Surface surface_of(const Conversion& made) {
+  bench::Surface s;
+  for (std::size_t p = 0; p < made.drape.positions.size(); ++p) {
+    const auto base = static_cast<std::uint32_t>(s.points.size());
+    s.points.insert(s.points.end(), made.drape.positions[p].begin(), made.drape.positions[p].end());
+    for (const Triangle& t : made.pattern.meshes[p].triangles)
+      s.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+  return s;
+}
+
+double sewing_seconds(const Conversion& made) {
+  double ms = 0;
+  for (const auto& [room, value] : made.stage_ms) ms += room == "sewing" ? value : 0;
+  return ms / 1e3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("The error estimate against the distance to a finer mesh", "vitrine-estimate-bench");
+  std::string photos, manifest, csv, who = "woman-m", set = "items";
+  std::vector<std::string> only;
+  std::vector<int> nodes = {300, 2000, 6500, 20000, 50000};
+  double last_residual = 3e-4, first_residual = 1e-3;
+  app.add_option("--photos", photos, "Folder of marked photos with index.tsv");
+  app.add_option("--manifest", manifest, "Catalogue of items");
+  app.add_option("--items", only, "Only the items of these names")->delimiter(',');
+  app.add_option("--mannequin", who, "Preset or mesh file")->capture_default_str();
+  app.add_option("--levels", nodes, "Node counts of the mesh levels; the last is the reference")->delimiter(',');
+  app.add_option("--reference-residual", last_residual, "Residual of the reference")->capture_default_str();
+  app.add_option("--residual", first_residual, "Residual of the levels that are judged")->capture_default_str();
+  app.add_option("--set", set, "Name of the set, the first column")->capture_default_str();
+  app.add_option("--csv", csv, "Write the rows here too");
+  CLI11_PARSE(app, argc, argv);
+
+  PluginSearch search;
+  search.folders = {std::string(VITRINE_BINARY_DIR) + "/lib/vitrine-1/plugins"};
+  search.built_in = false;
+  const PluginRegistry registry = PluginRegistry::load(search);
+  try {
+    std::vector<Item> items = manifest.empty() ? marked_photos(photos, registry) : of_manifest(manifest);
+    const auto body = body_of(who);
+    std::ofstream out;
+    if (!csv.empty()) out.open(csv);
+    const char* head =
+        "set,item,garment,fabric,level,nodes,edge_mm,steps,residual,change_mm,surface_change_mm,loose_share,estimate_"
+        "mm,"
+        "true_mm,true_p95_mm,true_max_mm,sewing_s,status\n";
+    out << head;
+    std::fputs(head, stdout);
+    for (const Item& item : items) {
+      if (!only.empty() && std::find(only.begin(), only.end(), item.name) == only.end()) continue;
+      ConvertRequest request;
+      request.name = item.name;
+      request.front = item.front;
+      request.back = item.back;
+      request.mirror_back = item.back.empty();
+      request.chest = item.chest;
+      request.length = item.length;
+      request.garment = *registry.find_garment(item.garment);
+      request.necklines = registry.necklines();
+      request.body = body;
+      std::vector<Conversion> made;
+      for (std::size_t l = 0; l < nodes.size(); ++l) {
+        request.settings = settings_of(Quality::fine);
+        request.settings->level_nodes.assign(nodes.begin(), nodes.begin() + static_cast<long>(l) + 1);
+        request.settings->residual = l + 1 == nodes.size() ? last_residual : first_residual;
+        made.push_back(cut_and_sew(request));
+        if (made.back().drape.levels.empty()) {
+          std::fprintf(stderr, "%s: %s\n", item.name.c_str(), made.back().error->message.c_str());
+          break;
+        }
+      }
+      if (made.size() < nodes.size() || made.back().drape.levels.empty()) continue;
+      const bench::Surface reference = surface_of(made.back());
+      for (std::size_t l = 0; l < made.size(); ++l) {
+        const Drape& d = made[l].drape;
+        const LevelFigures& f = d.levels.back();
+        bench::SurfaceDistance gap;
+        if (l + 1 < made.size()) gap = bench::surface_distance(surface_of(made[l]), reference);
+        char row[500];
+        std::snprintf(row, sizeof row, "%s,%s,%s,%s,%zu,%d,%.2f,%d,%.2e,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.2f,%.3f,%s\n",
+                      set.c_str(), item.name.c_str(), item.garment.c_str(), made[l].fabric.name.c_str(), l, f.nodes,
+                      f.edge_mm, f.iterations, d.residual, f.change_mean_mm, f.change_surface_mm, f.loose_share,
+                      d.error_estimate_mm.value_or(-1), 1e3 * gap.mean, 1e3 * gap.p95, 1e3 * gap.most,
+                      sewing_seconds(made[l]), d.status.c_str());
+        out << row << std::flush;
+        std::fputs(row, stdout);
+        std::fflush(stdout);
+      }
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vitrine-estimate-bench: %s\n", error.what());
+    return 66;
+  }
+  return 0;
+}

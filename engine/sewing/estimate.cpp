@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "estimate.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace vitrine::sewing {
+namespace {
+
+// Fitted on generated items and held against real ones, benchmarks/accuracy/estimate.csv; rather too large than too
+// small. `vitrine-estimate-bench` prints what they come from (docs/ARCHITECTURE.md).
+constexpr double tight_share = 0.02,
+                 loose_more = 0.19;   // [-] of the edge length, error of cloth that is held and hangs
+constexpr double change_share = 0.8;  // [-] of what a level moved still to come, where it halved the edges
+
+}  // namespace
+
+double surface_change(const Pattern& pattern, const Positions& before, const Positions& now) {
+  double sum = 0, area = 0;
+  for (std::size_t p = 0; p < pattern.meshes.size(); ++p)
+    for (const Triangle& t : pattern.meshes[p].triangles) {
+      const Vec3 &a = now[p][t[0]], &b = now[p][t[1]], &c = now[p][t[2]];
+      const Vec3 twice = (b - a).cross(c - a);  // twice the area, along the normal
+      const double length = twice.norm();
+      if (!(length > 0)) continue;
+      for (const auto n : t) sum += std::abs((now[p][n] - before[p][n]).dot(twice)) / 3;
+      area += length;
+    }
+  return area > 0 ? sum / area : 0;
+}
+
+double loose_share(const Pattern& pattern, const Positions& positions, const DistanceField& body, double offset) {
+  double loose = 0, all = 0;
+  for (std::size_t p = 0; p < pattern.meshes.size(); ++p)
+    for (const Vec3& x : positions[p]) loose += body.distance(x) > offset + 0.01, ++all;
+  return all > 0 ? loose / all : 0;
+}
+
+double estimate_error(std::span<const LevelFigures> levels) {
+  const LevelFigures& last = levels.back();
+  // One level alone: sagging chords and missing folds grow with the edges, where the body does not hold the cloth.
+  if (levels.size() < 2) return last.edge_mm * (tight_share + loose_more * last.loose_share);
+  // The closer two levels are, the less of what is to come has one of them shown.
+  const double finer = levels[levels.size() - 2].edge_mm / last.edge_mm - 1;
+  return last.change_surface_mm * change_share / std::sqrt(std::max(finer, 0.05));
+}
+
+}  // namespace vitrine::sewing
