@@ -11,7 +11,7 @@ namespace {
 
 // Node steps, by the time that `vitrine convert` spends in these rooms beside the sewing's own work and time
 // (docs/ARCHITECTURE.md tells how they were measured).
-constexpr double work_of_an_item = 4.0e6;        // the first picture, occlusion, files
+constexpr double work_of_an_item = 9.0e6;        // the first picture, occlusion, files
 constexpr double work_of_a_photo_pixel = 4.0;    // photo, silhouette, features, texture
 constexpr double work_of_a_picture_pixel = 5.0;  // --views, --turntable
 
