@@ -57,7 +57,8 @@ BudgetFigures judge_budget(const ConvertRequest& request, const Drape& drape, do
         (drape.out_of_work ? " where --max-time ended it" : " on the finest mesh that --quality allows"));
   if (!out.time_met)
     warnings.push_back("MAX_TIME_NOT_MET: " + seconds(asked.max_time) +
-                       " were asked, and the least that makes a garment takes " + seconds(out.spent_s));
+                       " were asked, and the least that makes a garment that is close to rest takes " +
+                       seconds(out.spent_s));
   return out;
 }
 
