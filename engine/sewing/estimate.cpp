@@ -12,7 +12,8 @@ namespace {
 // small. `vitrine-estimate-bench` prints what they come from (docs/ARCHITECTURE.md).
 constexpr double tight_share = 0.02, loose_more = 0.19;  // [-] of the edge length: cloth that is held, and that hangs
 constexpr double free_more = 0.7;                        // [-] the same where next to nothing holds it: a flared skirt
-constexpr double change_share = 0.8;  // [-] of what a level moved still to come, where it halved the edges
+// [-] of what the second level moved, and a later one, still to come where it halved the edges.
+constexpr double second_share = 0.8, later_share = 0.65;
 
 }  // namespace
 
@@ -46,7 +47,8 @@ double estimate_error(std::span<const LevelFigures> levels) {
   }
   // The closer two levels are, the less of what is to come has one of them shown.
   const double finer = levels[levels.size() - 2].edge_mm / last.edge_mm - 1;
-  return last.change_surface_mm * change_share / std::sqrt(std::max(finer, 0.05));
+  const double share = levels.size() == 2 ? second_share : later_share;
+  return last.change_surface_mm * share / std::sqrt(std::max(finer, 0.05));
 }
 
 }  // namespace vitrine::sewing
