@@ -8,8 +8,8 @@
 namespace vitrine::sewing {
 namespace {
 
-// Fitted on generated items and held against real ones, benchmarks/accuracy/estimate.csv; rather too large than too
-// small. `vitrine-estimate-bench` prints what they come from (docs/ARCHITECTURE.md).
+// Chosen on the items of benchmarks/accuracy/estimate.csv, which `vitrine-estimate-bench` wrote; rather too large than
+// too small (docs/ARCHITECTURE.md).
 constexpr double tight_share = 0.02, loose_more = 0.19;  // [-] of the edge length: cloth that is held, and that hangs
 constexpr double free_more = 0.7;                        // [-] the same where next to nothing holds it: a flared skirt
 // [-] of what the second level moved, and a later one, still to come where it halved the edges.
