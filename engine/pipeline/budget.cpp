@@ -11,7 +11,7 @@ namespace {
 
 // Node steps, by the time that `vitrine convert` spends in these rooms beside the sewing's own work and time
 // (docs/ARCHITECTURE.md tells how they were measured).
-constexpr double work_of_an_item = 4.0e6;        // the first picture, occlusion, files
+constexpr double work_of_an_item = 9.0e6;        // the first picture, occlusion, files
 constexpr double work_of_a_photo_pixel = 4.0;    // photo, silhouette, features, texture
 constexpr double work_of_a_picture_pixel = 5.0;  // --views, --turntable
 
@@ -57,7 +57,8 @@ BudgetFigures judge_budget(const ConvertRequest& request, const Drape& drape, do
         (drape.out_of_work ? " where --max-time ended it" : " on the finest mesh that --quality allows"));
   if (!out.time_met)
     warnings.push_back("MAX_TIME_NOT_MET: " + seconds(asked.max_time) +
-                       " were asked, and the least that makes a garment takes " + seconds(out.spent_s));
+                       " were asked, and the least that makes a garment that is close to rest takes " +
+                       seconds(out.spent_s));
   return out;
 }
 

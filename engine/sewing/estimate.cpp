@@ -8,11 +8,12 @@
 namespace vitrine::sewing {
 namespace {
 
-// Fitted on generated items and held against real ones, benchmarks/accuracy/estimate.csv; rather too large than too
-// small. `vitrine-estimate-bench` prints what they come from (docs/ARCHITECTURE.md).
-constexpr double tight_share = 0.02,
-                 loose_more = 0.19;   // [-] of the edge length, error of cloth that is held and hangs
-constexpr double change_share = 0.8;  // [-] of what a level moved still to come, where it halved the edges
+// Chosen on the items of benchmarks/accuracy/estimate.csv, which `vitrine-estimate-bench` wrote; rather too large than
+// too small (docs/ARCHITECTURE.md).
+constexpr double tight_share = 0.02, loose_more = 0.19;  // [-] of the edge length: cloth that is held, and that hangs
+constexpr double free_more = 0.7;                        // [-] the same where next to nothing holds it: a flared skirt
+// [-] of what the second level moved, and a later one, still to come where it halved the edges.
+constexpr double second_share = 0.8, later_share = 0.65;
 
 }  // namespace
 
@@ -40,10 +41,14 @@ double loose_share(const Pattern& pattern, const Positions& positions, const Dis
 double estimate_error(std::span<const LevelFigures> levels) {
   const LevelFigures& last = levels.back();
   // One level alone: sagging chords and missing folds grow with the edges, where the body does not hold the cloth.
-  if (levels.size() < 2) return last.edge_mm * (tight_share + loose_more * last.loose_share);
+  if (levels.size() < 2) {
+    const double loose = last.loose_share;
+    return last.edge_mm * (tight_share + loose_more * loose + free_more * std::pow(loose, 12));
+  }
   // The closer two levels are, the less of what is to come has one of them shown.
   const double finer = levels[levels.size() - 2].edge_mm / last.edge_mm - 1;
-  return last.change_surface_mm * change_share / std::sqrt(std::max(finer, 0.05));
+  const double share = levels.size() == 2 ? second_share : later_share;
+  return last.change_surface_mm * share / std::sqrt(std::max(finer, 0.05));
 }
 
 }  // namespace vitrine::sewing

@@ -104,17 +104,17 @@ class Tailor {
     now_.weld.assign(first.pairs.size(), 0);
     for (;;) {
       if (!fallen_ && (!sew() || !drape())) return broken();  // what falls keeps its shape on the finer meshes
+      if (!fallen_ && !last() && !given_up() && (good_enough() || !time_for_another())) {
+        if (!finish()) return broken();
+        // The last steps may have brought to light that it was not.
+        if (!given_up() && (!(o_.max_error > 0) || good_enough() || !time_for_another())) break;
+      }
       if (given_up()) {
         take_up_the_one_before();
         if (!finish()) return broken();
         break;
       }
       if (last()) break;
-      if (!fallen_ && (good_enough() || !time_for_another())) {
-        if (!finish()) return broken();
-        // The last steps may have brought to light that it was not.
-        if (!o_.max_error || good_enough() || !time_for_another()) break;
-      }
       if (fallen_ && budgeted()) break;
       if (auto e = carry_to_finer()) return *e;
     }
@@ -207,10 +207,8 @@ class Tailor {
     now_.before = scatter(now_.cloth, now_.nodes);
     push_out(now_.cloth, body_, o_.offset);
     now_.contact = contact_for(now_.cloth, mean_edge(pattern()));
-    // Where the time runs out there has to be some left for bringing the level before to rest.
-    const double limit = kept_ ? o_.max_work - finishing_steps * kept_->cloth.size * step_cost : o_.max_work;
-    if (last()) return relax_to(o_.residual, limit) && (given_up() || finish());
-    return relax_to(std::max(o_.residual, o_.coarse_residual), limit) && record();
+    if (last()) return relax_to(o_.residual) && (given_up() || finish());
+    return relax_to(std::max(o_.residual, o_.coarse_residual)) && record();
   }
 
   /// To the final residual; and what was skipped because the scene did not seem to need it is looked at, and turned on
@@ -218,26 +216,26 @@ class Tailor {
   bool finish() {
     if (now_.finished || fallen_) return record();
     now_.finished = true;
-    if (!last() && now_.residual > o_.residual && !relax_to(o_.residual, o_.max_work)) return false;
+    if (!last() && now_.residual > o_.residual && !relax_to(o_.residual)) return false;
     if (!fallen_ && (o_.contact_between_nodes || measure_penetration(pattern(), now_.x, body_) > penetration_bar)) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;
       now_.contact = contact_for(now_.cloth, mean_edge(pattern()));
-      if (!relax_to(o_.residual, o_.max_work)) return false;
+      if (!relax_to(o_.residual)) return false;
     }
     if (!fallen_ && o_.front_back != FrontBack::never) {
       crossed_before_ = detect_self_contact(pattern(), now_.nodes, now_.x);
       if (crossed_before_.crossed > 0 || o_.front_back == FrontBack::always) {
         layers_.emplace(pattern(), now_.nodes, 0.3 * k_);
-        if (!relax_to(o_.residual, o_.max_work)) return false;
+        if (!relax_to(o_.residual)) return false;
       }
     }
     return record();
   }
 
-  /// One relaxation of the level's cloth. `limit` [node steps] of all work so far ends it early, but not before the
-  /// cloth is close to rest, unless there is a level before to go back to.
-  bool relax_to(double residual, double limit) {
+  /// One relaxation of the level's cloth. A limit of work ends it early: before the cloth is close to rest only where
+  /// there is a level before to go back to, and early enough to finish that one.
+  bool relax_to(double residual) {
     RelaxOptions r;
     r.residual = residual;
     r.max_iterations = o_.max_iterations;
@@ -249,7 +247,9 @@ class Tailor {
     r.stop = [&](int it, double at) {
       if (o_.progress && it % 100 == 0) o_.progress(now_.level, it, at);
       fallen_ = start - middle(now_.cloth).y() > drop;
-      over = o_.max_work > 0 && out_.work + cost * it >= limit && (at <= close_to_rest || kept_);
+      const bool close = at <= close_to_rest;
+      const double reserve = kept_ && !close ? finishing_steps * step_cost * kept_->cloth.size : 0;
+      over = o_.max_work > 0 && out_.work + cost * (it + r.check_every) + reserve > o_.max_work && (close || kept_);
       return fallen_ || over;
     };
     const RelaxOutcome done = relax(now_.cloth, &now_.contact, r, layers_ ? &*layers_ : nullptr);

@@ -65,7 +65,7 @@ TEST(Budget, a_tighter_error_never_gives_fewer_levels_and_what_is_not_met_is_tol
     EXPECT_GE(d.levels.size(), before) << error;
     EXPECT_EQ(d.level + 1, static_cast<int>(d.levels.size()));
     ASSERT_TRUE(d.error_estimate_mm);
-    if (d.levels.size() < levels().size()) EXPECT_LE(*d.error_estimate_mm, 1e3 * error);
+    EXPECT_TRUE(d.levels.size() == levels().size() || *d.error_estimate_mm <= 1e3 * error) << error;
     for (std::size_t l = 0; l + 1 < d.levels.size(); ++l) EXPECT_GT(1.3 * d.levels[l].error_estimate_mm, 1e3 * error);
     before = d.levels.size();
   }
@@ -75,13 +75,13 @@ TEST(Budget, a_tighter_error_never_gives_fewer_levels_and_what_is_not_met_is_tol
 TEST(Budget, work_is_kept_to_and_what_it_ends_is_always_close_to_rest) {
   const double all = drape(0, 0).work;
   int before = 0;
-  for (const double share : {1e-9, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 3.0}) {
+  for (const double share : {1e-9, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 10.0}) {
     const Drape d = drape(0, share * all);
     EXPECT_LE(d.residual, 1.05e-2) << share;
     EXPECT_TRUE(d.level == 0 || d.work <= share * all * 1.05) << share << ": " << d.work << " of " << share * all;
     EXPECT_GE(d.level, before) << share;
     EXPECT_EQ(d.level + 1, static_cast<int>(d.levels.size()));
-    if (d.level < 2) EXPECT_TRUE(d.out_of_work) << share;
+    EXPECT_TRUE(d.level == 2 || d.out_of_work) << share;
     before = d.level;
   }
   EXPECT_EQ(before, 2);

@@ -41,7 +41,7 @@ Settings settings_of(Quality quality);
 /// What a user asks of accuracy and time: the cheapest mesh level that meets it is made, none finer than the quality's.
 struct Budget {
   /// [node steps/s] One core of a 2.5 GHz Xeon of 2019, see docs/ARCHITECTURE.md; seconds become work by it, once.
-  static constexpr double usual_rate = 18e6;
+  static constexpr double usual_rate = 16e6;
   double max_error = 0;  ///< [m] by the item's own estimate; 0 = none asked
   double max_time = 0;   ///< [s] of a processor, without the mannequin, which items share; 0 = none asked
   double work_rate = usual_rate;
