@@ -61,7 +61,7 @@ void set_limits(const CatalogOptions& options) {
 }
 
 /// Pictures come and go by the hundred: memory that an item has once touched is given back when its process ends.
-/// Handing it back in between costs a page fault for each 4 KB of the next picture, a twentieth of an item in all.
+/// Handing it back in between would cost a page fault for each 4 KB of the next picture.
 void keep_memory() {
   ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
   ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
