@@ -26,7 +26,8 @@ function fail(what, why) {
  * Throws OutfitError NOT_A_GLB, COMPRESSED.
  */
 export async function readGlb(data, what, decoder) {
-  const bytes = data instanceof Uint8Array ? data : new Uint8Array(data);
+  // Node's Buffers are such arrays too, but copy in another way.
+  const bytes = ArrayBuffer.isView(data) ? new Uint8Array(data.buffer, data.byteOffset, data.byteLength) : new Uint8Array(data);
   const words = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < 28 || words.getUint32(0, true) !== MAGIC || words.getUint32(4, true) !== 2)
     fail(what, 'its header is not that of one');

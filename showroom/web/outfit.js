@@ -19,7 +19,7 @@ const GAP_OVER = 0.0025; // between a top and the bottom that it hangs over
 const GAP_BODY = 0.002; // between the body and a top that is tucked in
 const GAP_BAND = 0.0015; // between that top and the band over it
 const FADE = 0.12; // a top is moved up to this far above the band
-const BULGE = 0.07; // above the band within which a tucked top comes in
+const BULGE = 0.11; // above the band within which a tucked top comes in
 const HIDDEN = 0.03; // below the band's edge nobody sees a tucked top
 const HELD = 0.12; // a band is moved down to this far below its edge
 
