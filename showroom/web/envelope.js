@@ -52,33 +52,26 @@ export class Envelope {
   }
 
   /**
-   * Every cell takes the furthest reach within two cells, then the mean of those within one: the result is smooth and
-   * nowhere less than what lies in a cell or beside it, which also closes what the points left open between them.
+   * Every cell takes the furthest reach within two cells, then the nearest of those: what the points left open between
+   * them is closed, and so are creases narrower than cloth can follow, but a slope stays where it is. The grid ends two cells
+   * beyond what was laid in.
    */
-  soften() {
-    const cells = (radius, combine) => {
+  close() {
+    for (const furthest of [true, false])
       for (const along of [1, COLUMNS]) {
         const from = this.reach, to = new Float32Array(from.length);
         for (let row = 0; row < this.rows; ++row)
           for (let column = 0; column < COLUMNS; ++column) {
-            let sum = 0;
-            for (let k = -radius; k <= radius; ++k) {
+            let best = 0;
+            for (let k = -2; k <= 2; ++k) {
               const r = along === 1 ? row : row + k, c = along === 1 ? (column + k + COLUMNS) % COLUMNS : column;
-              if (r < 0 || r >= this.rows) continue;
-              sum = combine(sum, from[r * COLUMNS + c]);
+              const reach = r < 0 || r >= this.rows ? 0 : from[r * COLUMNS + c];
+              if (reach > 0 && (best === 0 || reach > best === furthest)) best = reach;
             }
-            to[row * COLUMNS + column] = sum;
+            if (furthest || from[row * COLUMNS + column] > 0) to[row * COLUMNS + column] = best;
           }
         this.reach = to;
       }
-    };
-    cells(2, Math.max);
-    const filled = this.reach.map((r) => (r > 0 ? 1 : 0)), grown = this.reach;
-    cells(1, (a, b) => a + b);
-    const sums = this.reach;
-    this.reach = filled;
-    cells(1, (a, b) => a + b);
-    this.reach = sums.map((s, i) => (grown[i] > 0 ? s / this.reach[i] : 0));
     return this;
   }
 

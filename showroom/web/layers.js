@@ -79,6 +79,35 @@ export class Cloth {
     this.moved[v] = 1;
   }
 
+  /** Every edge once with the length [m] that it has now. */
+  edges() {
+    const edges = [], p = this.positions;
+    this.around.forEach((others, a) => {
+      for (const b of others)
+        if (a < b) edges.push([a, b, Math.hypot(p[3 * a] - p[3 * b], p[3 * a + 1] - p[3 * b + 1], p[3 * a + 2] - p[3 * b + 2])]);
+    });
+    return edges;
+  }
+
+  /** Shortens edges that are more than `limit` times as long as `edges` has them, by moving the points that are `free`. */
+  slacken(edges, limit, free, sweeps) {
+    const p = this.positions;
+    for (let sweep = 0; sweep < sweeps; ++sweep)
+      for (const [a, b, rest] of edges) {
+        const parts = free[a] + free[b];
+        if (parts === 0) continue;
+        const d = [0, 1, 2].map((i) => p[3 * b + i] - p[3 * a + i]), length = Math.hypot(...d);
+        if (length <= limit * rest) continue;
+        const share = (length - limit * rest) / length / parts;
+        for (let i = 0; i < 3; ++i) {
+          p[3 * a + i] += free[a] * share * d[i];
+          p[3 * b + i] -= free[b] * share * d[i];
+        }
+        this.moved[a] |= free[a];
+        this.moved[b] |= free[b];
+      }
+  }
+
   /**
    * Moves the cloth out along its radii until it stands `gap` [m] beyond the envelope, and no further than it needs:
    * the offsets are a membrane stretched over what is needed, held at 0 where `free` is not set. `bound` marks the points

@@ -20,6 +20,7 @@ const GAP_BODY = 0.002; // between the body and a top that is tucked in
 const GAP_BAND = 0.0015; // between that top and the band over it
 const FADE = 0.12; // a top is moved up to this far above the band
 const BULGE = 0.11; // above the band within which a tucked top comes in
+const SLACK = 1.12; // times its length, an edge of a top that is drawn in gives way
 const HIDDEN = 0.03; // below the band's edge nobody sees a tucked top
 const HELD = 0.12; // a band is moved down to this far below its edge
 
@@ -65,7 +66,7 @@ function wearOver(top, bottom, axis) {
   const band = bottom.heights().high, low = top.heights().low;
   if (low >= band) return { most: 0, short: 0 };
   const trunk = top.roundTheAxis(axis, band + 0.03);
-  const under = new Envelope(axis, low - 0.02, band).add(bottom.mesh.positions, bottom.mesh.triangles, () => true).soften();
+  const under = new Envelope(axis, low - 0.02, band).add(bottom.mesh.positions, bottom.mesh.triangles, () => true).close();
   const free = pick(top, (v) => trunk[v] || (top.positions[3 * v + 1] >= band + 0.03 && top.positions[3 * v + 1] < band + FADE));
   return top.pushOut(under, GAP_OVER, trunk, free);
 }
@@ -81,21 +82,29 @@ function tuckIn(top, bottom, axis, body) {
   const trunk = top.roundTheAxis(axis, band + 0.03), near = top.roundTheAxis(axis, band + BULGE);
   const room = new Envelope(axis, low - 0.02, band + BULGE)
     .add(body.mesh.positions, body.mesh.triangles, byPoint(body, body.roundTheAxis(axis, band + BULGE + 0.03)))
-    .soften();
+    .close();
   const p = top.positions, hidden = new Uint8Array(top.points.count);
-  for (let v = 0; v < top.points.count; ++v) {
-    if (!near[v]) continue;
-    const at = polar(axis, p[3 * v], p[3 * v + 2]), y = p[3 * v + 1];
-    const above = y - edge[Math.floor(at.column) % edge.length], reach = room.at(y, at.column);
-    if (above < -HIDDEN) hidden[v] = 1;
-    if (reach === 0 || at.r <= reach + GAP_BODY) continue;
-    const t = Math.min(1, Math.max(0, (above - 0.01) / (BULGE - 0.01))), share = 1 - t * t * (3 - 2 * t);
-    top.moveOut(v, axis, -share * (at.r - reach - GAP_BODY));
+  const columnOf = (v) => polar(axis, p[3 * v], p[3 * v + 2]);
+  const above = (v, column) => p[3 * v + 1] - edge[Math.floor(column) % edge.length];
+  const edges = top.edges();
+  // Cloth that goes in has a longer way to go: it comes from below the band, where it has been pulled in too. Drawing in
+  // and giving way by turns ends with both.
+  for (let round = 0; round < 6; ++round) {
+    for (let v = 0; v < top.points.count; ++v) {
+      const at = columnOf(v), reach = near[v] ? room.at(p[3 * v + 1], at.column) : 0;
+      if (reach === 0 || at.r <= reach + GAP_BODY) continue;
+      const t = Math.min(1, Math.max(0, (above(v, at.column) - 0.01) / (BULGE - 0.01)));
+      // From the second round on only what is under the band is drawn in again.
+      const share = round === 0 ? 1 - t * t * (3 - 2 * t) : t === 0 ? 1 : 0;
+      top.moveOut(v, axis, -share * (at.r - reach - GAP_BODY));
+    }
+    top.slacken(edges, SLACK, near, 12);
   }
+  for (let v = 0; v < top.points.count; ++v) hidden[v] = near[v] && above(v, columnOf(v).column) < -HIDDEN ? 1 : 0;
   top.leaveOut(hidden);
   top.pushOut(room, GAP_BODY / 2, trunk, near);
   const positions = top.write().positions;
-  const inner = new Envelope(axis, low - 0.02, band).add(positions, top.mesh.triangles, byPoint(top, trunk)).soften();
+  const inner = new Envelope(axis, low - 0.02, band).add(positions, top.mesh.triangles, byPoint(top, trunk)).close();
   const q = bottom.positions;
   const held = pick(bottom, (v) => q[3 * v + 1] > band - HIDDEN - 2 * HELD);
   return bottom.pushOut(inner, GAP_BAND, held, held);

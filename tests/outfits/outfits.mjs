@@ -9,7 +9,8 @@ import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from 'three
 import { MeshBVH } from 'three-mesh-bvh';
 import { composeOutfit } from '../../showroom/web/outfit.js';
 
-const BARS = { cloth_mm: 1, body_mm: 0.5, longer: 1.25, shorter: 0.5 };
+// Edges that lay across a fold grow short where a tucked top is drawn in flat: shorter is no tear.
+const BARS = { cloth_mm: 1, body_mm: 0.5, longer: 1.25, shorter: 0.2 };
 const FINE = 0.004; // [m] between the points of a triangle that are looked at
 const NEAR = 0.08; // [m] an outer cloth is looked for this far off
 
@@ -141,10 +142,12 @@ async function check(folder, top, bottom, mode, keep) {
   const before = { top: pick(`garment_${top}`, meshesOf(garment).found), bottom: pick(`garment_${bottom}`, meshesOf(dressed).found) };
   const now = { top: pick(`garment_${top}`, found), bottom: pick(`garment_${bottom}`, found) }, body = found.get('mannequin');
   const faults = [];
-  if (names.length !== 3 || !now.top || !now.bottom || !body) return [[`nodes ${names}`], ''];
+  if (names.length !== 3 || !now.top || !now.bottom || !body) return [[`nodes ${names}`], 0, ''];
   const [outer, inner] = mode === 'over' ? [now.top, now.bottom] : [now.bottom, now.top];
   const band = heights(now.bottom)[1], hem = heights(before.top)[0];
   const worst = through(outer, inner, body, hem - 0.02, band + 0.005);
+  const [bareOuter, bareInner] = mode === 'over' ? [before.top, before.bottom] : [before.bottom, before.top];
+  const bare = through(bareOuter, bareInner, body, hem - 0.02, band + 0.005);
   const deep = Math.max(inBody(now.top, body, hem, band + 0.1), inBody(now.bottom, body, hem, band));
   const was = Math.max(inBody(before.top, body, hem, band + 0.1), inBody(before.bottom, body, hem, band));
   const edges = [stretch(now.top, before.top), stretch(now.bottom, before.bottom)];
@@ -157,8 +160,8 @@ async function check(folder, top, bottom, mode, keep) {
   expect(shorter >= BARS.shorter, `an edge is ${shorter.toFixed(2)} times as long`);
   expect(edges.every((e) => e.lost === 0), 'a seam has opened');
   expect(issues.numErrors + issues.numWarnings + issues.numInfos === 0, `glTF: ${issues.messages.map((m) => `${m.code} ${m.pointer}`).join(', ')}`);
-  const figures = [1e3 * worst.depth, 1e3 * deep, 1e3 * was, json.asset.extras.outfit.moved_mm, longer, shorter, cpu];
-  return [faults, figures.map((f, i) => f.toFixed(i === 6 ? 0 : 2).padStart(7)).join(' ')];
+  const figures = [1e3 * worst.depth, 1e3 * bare.depth, 1e3 * deep, 1e3 * was, json.asset.extras.outfit.moved_mm, longer, shorter, cpu];
+  return [faults, bare.depth, figures.map((f, i) => f.toFixed(i === 7 ? 0 : 2).padStart(7)).join(' ')];
 }
 
 const args = process.argv.slice(2);
@@ -173,8 +176,8 @@ if (args.length === 0) {
   process.exit(64);
 }
 if (keep) await mkdir(keep, { recursive: true });
-let failed = 0, pairs = 0;
-console.log('cloth mm, body mm, (before), moved mm, longest, shortest edge / before, composing ms of processor');
+let failed = 0, pairs = 0, clashes = 0;
+console.log('cloth through cloth mm, (as draped), cloth in the body mm, (as draped), moved mm, longest, shortest edge / before, composing ms of processor');
 for (const folder of args) {
   const skus = { top: [], bottom: [] };
   for (const sku of (await readdir(folder)).sort()) {
@@ -187,12 +190,14 @@ for (const folder of args) {
   for (const top of skus.top)
     for (const bottom of skus.bottom)
       for (const mode of modes) {
-        const [faults, line] = await check(folder, top, bottom, mode, keep);
+        const [faults, bare, line] = await check(folder, top, bottom, mode, keep);
         ++pairs;
+        clashes += 1e3 * bare > BARS.cloth_mm;
         failed += faults.length > 0;
         console.log(`${faults.length ? 'FAILED' : 'ok    '} ${line} ${folder} ${top} ${mode} ${bottom}`);
         for (const fault of faults) console.log(`         ${fault}`);
       }
 }
-console.log(`${pairs} outfits, ${failed} failed`);
-process.exit(failed === 0 && pairs > 0 ? 0 : 1);
+console.log(`${pairs} outfits, ${clashes} of them would clash as they were draped, ${failed} failed`);
+// Garments draped each for itself on one body do clash: where none is seen to, the measuring is blind.
+process.exit(failed === 0 && clashes > 0 ? 0 : 1);
