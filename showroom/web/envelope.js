@@ -97,10 +97,21 @@ export class Envelope {
 
   /** For each column the height [m] of the highest cell that is filled, evened out over a few degrees. */
   upperEdge() {
+    return this.#edge(Array.from({ length: this.rows }, (_, i) => this.rows - 1 - i));
+  }
+
+  /** The same of the lowest cell. */
+  lowerEdge() {
+    return this.#edge(Array.from({ length: this.rows }, (_, i) => i));
+  }
+
+  /** Heights of the first filled cells in an order of rows; -Infinity where a column and its neighbours are empty. */
+  #edge(order) {
     const edge = new Float32Array(COLUMNS).fill(-Infinity);
-    for (let column = 0; column < COLUMNS; ++column)
-      for (let row = this.rows - 1; row >= 0 && edge[column] === -Infinity; --row)
-        if (this.reach[row * COLUMNS + column] > 0) edge[column] = this.low + (row + 0.5) * STEP;
+    for (let column = 0; column < COLUMNS; ++column) {
+      const row = order.find((r) => this.reach[r * COLUMNS + column] > 0);
+      if (row !== undefined) edge[column] = this.low + (row + 0.5) * STEP;
+    }
     return edge.map((_, column) => {
       let sum = 0, count = 0;
       for (let k = -4; k <= 4; ++k) {

@@ -16,6 +16,9 @@ const ROLES = {
 
 // All in metres.
 const GAP_OVER = 0.0025; // between a top and the bottom that it hangs over
+const GAP_COVERED = 0.004; // between the body and a bottom that a top presses in
+const GIVE = 0.01; // by which a top lets itself be held out before it presses
+const SPRING = 0.14; // below its hem within which a skirt springs out again
 const GAP_BODY = 0.002; // between the body and a top that is tucked in
 const GAP_BAND = 0.0015; // between that top and the band over it
 const FADE = 0.12; // a top is moved up to this far above the band
@@ -61,12 +64,41 @@ const all = (mark) => (a, b, c) => mark[a] && mark[b] && mark[c];
 const byPoint = (cloth, mark) => all(Uint8Array.from(cloth.points.of, (g) => mark[g]));
 const pick = (cloth, test) => Uint8Array.from({ length: cloth.points.count }, (_, v) => (test(v) ? 1 : 0));
 
+/**
+ * A wide skirt gives way to the top over it: where it would hold the top out by more than GIVE it is pressed in, as far as
+ * the body lets it, and springs out again below the hem.
+ */
+function pressIn(bottom, top, trunk, axis, body, band, hem) {
+  const outer = new Envelope(axis, hem, band).add(top.mesh.positions, top.mesh.triangles, byPoint(top, trunk)).close();
+  const skin = new Envelope(axis, hem - SPRING, band + 0.02)
+    .add(body.mesh.positions, body.mesh.triangles, byPoint(body, body.roundTheAxis(axis, band + 0.03)))
+    .close();
+  // The hem's own height all around: below it the skirt is let go.
+  const lower = outer.lowerEdge();
+  const p = bottom.positions, pressed = new Uint8Array(bottom.points.count), edges = bottom.edges();
+  for (let round = 0; round < 4; ++round) {
+    for (let v = 0; v < bottom.points.count; ++v) {
+      const at = polar(axis, p[3 * v], p[3 * v + 2]), y = p[3 * v + 1], end = lower[Math.floor(at.column) % lower.length];
+      const reach = outer.at(Math.max(y, end), at.column), room = skin.at(y, at.column) + GAP_COVERED;
+      const target = Math.max(reach + GIVE, room), t = Math.min(1, Math.max(0, (end - y) / SPRING));
+      const share = round > 0 && t > 0 ? 0 : 1 - t * t * (3 - 2 * t);
+      if (reach === 0 || at.r <= target || share === 0) continue;
+      pressed[v] = 1;
+      bottom.moveOut(v, axis, -share * (at.r - target));
+    }
+    bottom.slacken(edges, SLACK, pressed, 8);
+  }
+}
+
 /** The top hangs over the bottom's band: its cloth is moved out. */
-function wearOver(top, bottom, axis) {
+function wearOver(top, bottom, axis, body) {
   const band = bottom.heights().high, low = top.heights().low;
   if (low >= band) return { most: 0, short: 0 };
   const trunk = top.roundTheAxis(axis, band + 0.03);
-  const under = new Envelope(axis, low - 0.02, band).add(bottom.mesh.positions, bottom.mesh.triangles, () => true).close();
+  let hem = band;
+  trunk.forEach((m, v) => m && (hem = Math.min(hem, top.positions[3 * v + 1])));
+  pressIn(bottom, top, trunk, axis, body, band, hem);
+  const under = new Envelope(axis, hem - 0.02, band).add(bottom.write().positions, bottom.mesh.triangles, () => true).close();
   const free = pick(top, (v) => trunk[v] || (top.positions[3 * v + 1] >= band + 0.03 && top.positions[3 * v + 1] < band + FADE));
   return top.pushOut(under, GAP_OVER, trunk, free);
 }
@@ -133,7 +165,7 @@ export async function composeOutfit({ dressed, garment, mode = 'over', roles = {
   const [a, b, body] = meshes.map((mesh) => new Cloth(mesh));
   const [top, bottom] = role.first === 'top' ? [a, b] : [b, a];
   const axis = axisOf(bottom);
-  const { most } = mode === 'over' ? wearOver(top, bottom, axis) : tuckIn(top, bottom, axis, body);
+  const { most } = mode === 'over' ? wearOver(top, bottom, axis, body) : tuckIn(top, bottom, axis, body);
   putMesh(first, a.write());
   putMesh(second, b.write());
 
