@@ -22,7 +22,8 @@ const SPRING = 0.14; // below its hem within which a skirt springs out again
 const GAP_BODY = 0.002; // between the body and a top that is tucked in
 const GAP_BAND = 0.0015; // between that top and the band over it
 const FADE = 0.12; // a top is moved up to this far above the band
-const BULGE = 0.11; // above the band within which a tucked top comes in
+const BULGE = 0.11; // above the band within which a tucked top comes in, where the arms begin no lower
+const ARM = 0.15; // further out than the band by this much is no trunk
 const SLACK = 1.12; // times its length, an edge of a top that is drawn in gives way
 const HIDDEN = 0.03; // below the band's edge nobody sees a tucked top
 const HELD = 0.12; // a band is moved down to this far below its edge
@@ -58,6 +59,24 @@ function axisOf(bottom) {
     });
   }
   return { x: (low[0] + far[0]) / 2, z: (low[1] + far[1]) / 2 };
+}
+
+/** How far the bottom's band reaches from the axis [m]. */
+function radiusOf(bottom, axis) {
+  const { high } = bottom.heights(), p = bottom.positions;
+  let r = 0;
+  for (let v = 0; v < p.length; v += 3) if (p[v + 1] >= high - 0.1) r = Math.max(r, Math.hypot(p[v] - axis.x, p[v + 2] - axis.z));
+  return r;
+}
+
+/** The greatest height up to `high`, not below `low`, at which arms or sleeves are not yet part of the trunk. */
+function belowTheArms(cloth, axis, radius, low, high) {
+  const p = cloth.positions;
+  for (let cut = high; cut > low; cut -= 0.01) {
+    const far = cloth.roundTheAxis(axis, cut).some((m, v) => m && Math.hypot(p[3 * v] - axis.x, p[3 * v + 2] - axis.z) > radius + ARM);
+    if (!far) return cut;
+  }
+  return low;
 }
 
 const all = (mark) => (a, b, c) => mark[a] && mark[b] && mark[c];
@@ -111,9 +130,11 @@ function tuckIn(top, bottom, axis, body) {
   const band = bottom.heights().high, low = top.heights().low;
   if (low >= band) return { most: 0, short: 0 };
   const edge = new Envelope(axis, bottom.heights().low, band).add(bottom.mesh.positions, bottom.mesh.triangles, () => true).upperEdge();
-  const trunk = top.roundTheAxis(axis, band + 0.03), near = top.roundTheAxis(axis, band + BULGE);
-  const room = new Envelope(axis, low - 0.02, band + BULGE)
-    .add(body.mesh.positions, body.mesh.triangles, byPoint(body, body.roundTheAxis(axis, band + BULGE + 0.03)))
+  const radius = radiusOf(bottom, axis), trunkTop = band + 0.03;
+  const cut = Math.min(...[body, top].map((c) => belowTheArms(c, axis, radius, trunkTop, trunkTop + BULGE))), bulge = Math.max(0.02, cut - trunkTop + 0.01);
+  const trunk = top.roundTheAxis(axis, trunkTop), near = top.roundTheAxis(axis, band + bulge);
+  const room = new Envelope(axis, low - 0.02, band + bulge)
+    .add(body.mesh.positions, body.mesh.triangles, byPoint(body, body.roundTheAxis(axis, cut)))
     .close();
   const p = top.positions, hidden = new Uint8Array(top.points.count);
   const columnOf = (v) => polar(axis, p[3 * v], p[3 * v + 2]);
@@ -125,7 +146,7 @@ function tuckIn(top, bottom, axis, body) {
     for (let v = 0; v < top.points.count; ++v) {
       const at = columnOf(v), reach = near[v] ? room.at(p[3 * v + 1], at.column) : 0;
       if (reach === 0 || at.r <= reach + GAP_BODY) continue;
-      const t = Math.min(1, Math.max(0, (above(v, at.column) - 0.01) / (BULGE - 0.01)));
+      const t = Math.min(1, Math.max(0, (above(v, at.column) - 0.01) / (bulge - 0.01)));
       // From the second round on only what is under the band is drawn in again.
       const share = round === 0 ? 1 - t * t * (3 - 2 * t) : t === 0 ? 1 : 0;
       top.moveOut(v, axis, -share * (at.r - reach - GAP_BODY));

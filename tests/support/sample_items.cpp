@@ -162,7 +162,7 @@ PhotoSpec dotted_t_shirt() {
   s.cuff_width = 15.5;
   s.fabric = Fabric2d::dots;
   s.colour = {30, 98, 102};
-  s.second = {244, 238, 222};
+  s.second = {246, 214, 150};
   s.trim = {24, 84, 90};
   s.pattern = 3;
   s.rib = 1.8;
