@@ -162,13 +162,13 @@ PhotoSpec dotted_t_shirt() {
   s.cuff_width = 15.5;
   s.fabric = Fabric2d::dots;
   s.colour = {30, 98, 102};
-  s.second = {246, 214, 150};
+  s.second = {244, 238, 222};
   s.trim = {24, 84, 90};
   s.pattern = 3;
   s.rib = 1.8;
   s.width = 1040;
   s.height = 980;
-  s.board = {228, 225, 219};
+  s.board = {178, 186, 198};
   s.tilt = 0.8;
   return s;
 }
