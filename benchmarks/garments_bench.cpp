@@ -42,8 +42,10 @@ std::vector<Item> marked_photos(const fs::path& folder, const PluginRegistry& re
 
 std::vector<Item> sample_photos() {
   std::vector<Item> items;
-  for (const char* row : {"vest vest-sailor", "vest vest-terracotta", "long_sleeve long-sleeve-sunrise",
-                          "long_sleeve long-sleeve-mustard", "skirt skirt-garden", "skirt skirt-denim"}) {
+  for (const char* row :
+       {"vest vest-sailor", "vest vest-terracotta", "long_sleeve long-sleeve-sunrise",
+        "long_sleeve long-sleeve-mustard", "skirt skirt-garden", "skirt skirt-denim", "t_shirt t-shirt-dots",
+        "dress dress-meadow", "trousers trousers-indigo", "shorts shorts-olive"}) {
     const std::string text = row;
     const auto space = text.find(' ');
     const std::string name = text.substr(space + 1),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "digest.hpp"
 #include "rooms.hpp"
 
 namespace vitrine {
@@ -78,6 +79,7 @@ Rooms::Step Rooms::write_glb() {
                         {"status", item_.drape.status},
                         {"flat_mm", flat_measurements(request_.garment, item_.pattern.panels[0])},
                         {"mannequin", request_.body->mannequin.source},
+                        {"mannequin_sha256", hash_of(request_.body->mannequin.mesh)},
                         {"report_sha256", report_hash(request_, item_)}};
   for (const auto& [name, girth] : request_.body->mannequin.girths)
     extras["mannequin_mm"][name] = std::round(girth * 1e4) / 10;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <openssl/evp.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "as_given.hpp"
+#include "digest.hpp"
 
 namespace vitrine {
 namespace {
@@ -140,13 +139,7 @@ std::string report_hash(const ConvertRequest& request, const Conversion& item) {
   j["name"] = request.name;
   add_facts(j, request, item);
   const std::string text = to_text(j, -1);
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned size = 0;
-  if (EVP_Digest(text.data(), text.size(), digest, &size, EVP_sha256(), nullptr) != 1) return {};
-  std::string hex;
-  for (unsigned i = 0; i < size; ++i)
-    for (const int nibble : {digest[i] >> 4, digest[i] & 15}) hex += "0123456789abcdef"[nibble];
-  return hex;
+  return sha256_hex(text.data(), text.size());
 }
 
 std::string report_json(const ConvertRequest& request, const Conversion& item) {

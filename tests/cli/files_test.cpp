@@ -53,6 +53,11 @@ TEST(Files, carry_sku_measurements_copyright_and_the_reports_hash) {
   EXPECT_NEAR(extras.at("flat_mm").at("width").get<double>(), 460, 5);
   EXPECT_NEAR(extras.at("mannequin_mm").at("height").get<double>(), 1720, 2);
 
+  // What garment.glb was draped on can be told without the body in it.
+  const auto alone = gltf_of(out / "garment.glb").at("asset").at("extras");
+  EXPECT_EQ(extras.at("mannequin_sha256").get<std::string>().size(), 64u);
+  EXPECT_EQ(alone.at("mannequin_sha256"), extras["mannequin_sha256"]);
+
   auto report = nlohmann::ordered_json::parse(slurp(out / "report.json"));
   for (const char* later : {"status", "error", "commerce", "ms"}) report.erase(later);
   EXPECT_EQ(extras.at("report_sha256"), sha256(report.dump()));

@@ -143,6 +143,114 @@ PhotoSpec floral_skirt() {
   return s;
 }
 
+PhotoSpec dotted_t_shirt() {
+  PhotoSpec s;
+  s.garment = GarmentKind::t_shirt;
+  s.seed = 71;
+  s.neck_half = 9;
+  s.neck_depth = 10;
+  s.shoulder_half = 20.5;
+  s.shoulder_drop = 3.6;
+  s.armhole_depth = 23.5;
+  s.chest = 48;
+  s.hem = 48;
+  s.length = 62;
+  s.waist_share = 0.96;
+  s.sleeve_length = 20;
+  s.sleeve_angle = 43;
+  s.sleeve_width = 18;
+  s.cuff_width = 15.5;
+  s.fabric = Fabric2d::dots;
+  s.colour = {30, 98, 102};
+  s.second = {244, 238, 222};
+  s.trim = {24, 84, 90};
+  s.pattern = 3;
+  s.rib = 1.8;
+  s.width = 1040;
+  s.height = 980;
+  s.board = {228, 225, 219};
+  s.tilt = 0.8;
+  return s;
+}
+
+PhotoSpec meadow_dress() {
+  PhotoSpec s;
+  s.garment = GarmentKind::dress;
+  s.seed = 83;
+  s.neck = NeckKind::v;
+  s.neck_half = 9;
+  s.neck_depth = 15;
+  s.shoulder_half = 15.5;
+  s.shoulder_drop = 2;
+  s.armhole_depth = 21;
+  s.chest = 45;
+  s.length = 100;
+  s.waist_level = 18.0 / (100 - 21);
+  s.waist_share = 0.87;
+  s.hip = 49;
+  s.hip_depth = 20;
+  s.hem = 72;
+  s.hem_curve = 1.4;
+  s.fabric = Fabric2d::floral;
+  s.colour = {42, 54, 98};
+  s.second = {246, 214, 150};
+  s.third = {106, 150, 120};
+  s.trim = {36, 46, 86};
+  s.pattern = 5.2;
+  s.rib = 1.2;
+  s.width = 960;
+  s.height = 1200;
+  s.board = {231, 226, 218};
+  s.tilt = -0.7;
+  return s;
+}
+
+PhotoSpec indigo_jeans() {
+  PhotoSpec s;
+  s.garment = GarmentKind::trousers;
+  s.seed = 97;
+  s.chest = 36;
+  s.hip = 46;
+  s.hip_depth = 20;
+  s.rise = 27;
+  s.hem = 20.5;
+  s.length = 99;
+  s.leg_angle = 3.5;
+  s.fabric = Fabric2d::denim;
+  s.colour = {38, 56, 96};
+  s.second = {112, 142, 184};
+  s.trim = {36, 52, 90};
+  s.creases = 0.9;
+  s.width = 900;
+  s.height = 1200;
+  s.fill = 0.9;
+  s.board = {233, 229, 222};
+  s.tilt = 0.6;
+  return s;
+}
+
+PhotoSpec olive_shorts() {
+  PhotoSpec s;
+  s.garment = GarmentKind::shorts;
+  s.seed = 101;
+  s.chest = 36;
+  s.hip = 47;
+  s.hip_depth = 20;
+  s.rise = 28;
+  s.hem = 26;
+  s.length = 42;
+  s.leg_angle = 5;
+  s.colour = {118, 118, 72};
+  s.trim = {106, 106, 64};
+  s.creases = 0.9;
+  s.width = 960;
+  s.height = 900;
+  s.fill = 0.82;
+  s.board = {234, 230, 224};
+  s.tilt = -0.9;
+  return s;
+}
+
 }  // namespace
 
 const std::vector<SampleItem>& sample_items() {
@@ -153,6 +261,10 @@ const std::vector<SampleItem>& sample_items() {
       {"long-sleeve-mustard", "auto", "", "Square-neck sweatshirt, mustard melange", mustard_long_sleeve()},
       {"skirt-denim", "auto", "", "Denim mini skirt, washed blue", denim_skirt()},
       {"skirt-garden", "auto", "", "Flared midi skirt with garden print, \"Rosa\"", floral_skirt()},
+      {"t-shirt-dots", "auto", "", "Dotted T-shirt, petrol", dotted_t_shirt()},
+      {"dress-meadow", "auto", "", "A-line dress with meadow print, ink blue", meadow_dress()},
+      {"trousers-indigo", "auto", "", "Straight jeans, indigo", indigo_jeans()},
+      {"shorts-olive", "auto", "", "Chino shorts, olive", olive_shorts()},
   };
   return items;
 }
@@ -166,14 +278,17 @@ std::string sample_manifest() {
     // What a shop's tape would say of the garment as it lies: to half a centimetre, between the points that the garment
     // types measure.
     const auto points = make_shape(item.front).landmarks;
-    const bool skirt = item.front.garment == GarmentKind::skirt;
-    const auto point = [&](const char* top, const char* of_skirt) { return points.at(skirt ? of_skirt : top); };
+    const bool hangs = has_waist(item.front.garment);
+    const auto width = [&](const std::string& point) {
+      return (points.at(point + "_right") - points.at(point + "_left")).norm();
+    };
     const auto number = [](double cm) {
       const long halves = std::lround(2 * cm);
       return std::to_string(halves / 2) + (halves % 2 != 0 ? ".5" : "");
     };
-    const double chest = (point("armpit_right", "waist_right") - point("armpit_left", "waist_left")).norm();
-    const double length = points.at("hem_left").y() - point("neck_left", "waist_left").y();
+    const double chest = width(hangs ? "waist" : "armpit");
+    const double length = points.at(has_legs(item.front.garment) ? "hem_outer_left" : "hem_left").y() -
+                          points.at(hangs ? "waist_left" : "neck_left").y();
     text += item.sku + "," + id_of(item.front.garment) + "," + item.neckline + "," + item.sku + "-front.jpg," +
             item.sku + "-back.jpg,,,," + number(chest) + "," + number(length) + "," + item.fabric + ",\"" + title +
             "\"\n";

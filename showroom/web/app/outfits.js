@@ -36,7 +36,7 @@ async function compose() {
     const [{ composeOutfit }, dressed, garment] = await Promise.all([
       import('./outfit.js'), bytes(`${bottom.folder}dressed.glb`), bytes(`${top.folder}garment.glb`)]);
     if (now !== turn) return;
-    const glb = await composeOutfit({ dressed, garment, mode: chosen.mode });
+    const glb = await composeOutfit({ dressed, garment, mode: chosen.mode, roles: { dressed: 'bottom', garment: 'top' } });
     if (now !== turn) return;
     const url = URL.createObjectURL(new Blob([glb], { type: 'model/gltf-binary' }));
     const alt = `${top.item.t} with ${bottom.item.t} on a mannequin`;
