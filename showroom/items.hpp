@@ -15,12 +15,13 @@ namespace vitrine::showroom {
 
 /// A mannequin that items are worn by.
 struct WornBody {
-  std::string sex;                           ///< "woman", "man" or empty
-  std::string label;                         ///< folder of a size run, or the mannequin's source
-  std::array<double, 8> cm{};                ///< [cm] in the order of body_measures; all 0: not told
+  std::string sex;             ///< "woman", "man" or empty
+  std::string label;           ///< folder of a size run, or the mannequin's source
+  std::array<double, 8> cm{};  ///< [cm] in the order of body_measures; all 0: not told
   bool operator==(const WornBody&) const = default;
 };
-constexpr const char* body_measures[] = {"height", "bust", "under_bust", "waist", "hip", "inside_leg", "arm", "neck_base"};
+constexpr const char* body_measures[] = {"height", "bust",       "under_bust", "waist",
+                                         "hip",    "inside_leg", "arm",        "neck_base"};
 
 /// A length of the garment lying flat, between two named points of the front photo.
 struct FlatMeasure {

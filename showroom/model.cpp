@@ -166,7 +166,8 @@ Result<std::vector<std::string>> colour_families(const fs::path& file) {
     const Json& texture = glb->json.at("textures").at(base.at("index").get<std::size_t>());
     const Json& image = glb->json.at("images").at(texture.at("source").get<std::size_t>());
     const Json& view = glb->json.at("bufferViews").at(image.at("bufferView").get<std::size_t>());
-    const std::size_t start = view.value("byteOffset", std::size_t{0}), length = view.at("byteLength").get<std::size_t>();
+    const std::size_t start = view.value("byteOffset", std::size_t{0}),
+                      length = view.at("byteLength").get<std::size_t>();
     if (start > glb->bin.size() || length > glb->bin.size() - start) return bad;
     // A quarter of the size is decoded as such, which JPEG can do cheaply.
     const cv::Mat raw(1, static_cast<int>(length), CV_8U, const_cast<unsigned char*>(glb->bin.data() + start));

@@ -18,8 +18,8 @@ struct VerticalExtent {
 std::optional<VerticalExtent> vertical_extent(const std::filesystem::path& glb);
 
 /// Families of the colours that the garment's triangles show of its texture, the commonest first: black, grey, white,
-/// beige, brown, red, orange, yellow, green, blue, purple or pink. One, or two when the second covers a quarter or more.
-/// Error (65): NOT_A_GLB.
+/// beige, brown, red, orange, yellow, green, blue, purple or pink. One, or two when the second covers a quarter or
+/// more. Error (65): NOT_A_GLB.
 Result<std::vector<std::string>> colour_families(const std::filesystem::path& glb);
 
 /// The family of an sRGB colour, by lightness, chroma and hue in CIE LCh(ab), D65.

@@ -92,9 +92,9 @@ std::string card_html(const ShownItem& item, bool eager) {
   const std::string place = "item/" + item.sku + "/";
   return "<li class=\"card\"><a href=\"" + place + "index.html\"><img src=\"" + place + "card.webp\" alt=\"" +
          escaped(alt_of(item)) + "\" width=\"300\" height=\"400\" " +
-         (eager ? "decoding=\"async\"" : "loading=\"lazy\" decoding=\"async\"") + "><span class=\"name\" dir=\"auto\">" +
-         escaped(shown_text(item.title, 120)) + "</span><span class=\"kind\">" + escaped(kind_of(item)) +
-         "</span></a></li>\n";
+         (eager ? "decoding=\"async\"" : "loading=\"lazy\" decoding=\"async\"") +
+         "><span class=\"name\" dir=\"auto\">" + escaped(shown_text(item.title, 120)) + "</span><span class=\"kind\">" +
+         escaped(kind_of(item)) + "</span></a></li>\n";
 }
 
 Json card_json(const ShownItem& item) {
@@ -109,7 +109,8 @@ std::string facts_html(const ShownItem& item) {
   if (!item.neckline.empty()) html += row("Neckline", spoken(item.neckline));
   if (!item.colours.empty()) html += row("Colour", spoken(joined(item.colours)));
   if (!look.fabric.empty()) html += row("Draped as", spoken(look.fabric));
-  for (const FlatMeasure& m : look.flat) html += row(m.name, centimetres(m.cm), " data-flat=\"" + escaped(m.name) + "\"");
+  for (const FlatMeasure& m : look.flat)
+    html += row(m.name, centimetres(m.cm), " data-flat=\"" + escaped(m.name) + "\"");
   html += row("Article", item.sku);
   return html;
 }
@@ -133,8 +134,10 @@ Json item_json(const ShownItem& item, const std::vector<WornBody>& bodies) {
   for (const Look& look : item.looks) {
     Json flat = Json::object();
     for (const FlatMeasure& m : look.flat) flat[m.name] = centimetres(m.cm);
-    Json one{{"size", look.size}, {"model", place_in_item(look, "dressed-page.glb")},
-             {"garment", place_in_item(look, "garment.glb")}, {"poster", place_in_item(look, "poster.webp")},
+    Json one{{"size", look.size},
+             {"model", place_in_item(look, "dressed-page.glb")},
+             {"garment", place_in_item(look, "garment.glb")},
+             {"poster", place_in_item(look, "poster.webp")},
              {"flat", std::move(flat)}};
     if (look.body >= 0) one["body"] = bodies_json({bodies[static_cast<std::size_t>(look.body)]}).at(0);
     looks.push_back(std::move(one));
@@ -145,7 +148,8 @@ Json item_json(const ShownItem& item, const std::vector<WornBody>& bodies) {
 std::string options_html(const std::map<std::string, int>& counts) {
   std::string html;
   for (const auto& [id, count] : counts)
-    html += "<option value=\"" + escaped(id) + "\">" + escaped(spoken(id)) + " (" + std::to_string(count) + ")</option>";
+    html +=
+        "<option value=\"" + escaped(id) + "\">" + escaped(spoken(id)) + " (" + std::to_string(count) + ")</option>";
   return html;
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file that a request's path (decoded) means, or nothing: only what lies inside `root` when all links are followed.
+/// The file that a request's path (decoded) means, or nothing: only what lies inside `root` when all links are
+/// followed.
 fs::path file_in(const fs::path& root, const std::string& path) {
   if (path.empty() || path[0] != '/' || path.size() > 2048 || path.find('\0') != std::string::npos) return {};
   std::error_code failed;
@@ -26,12 +27,16 @@ fs::path file_in(const fs::path& root, const std::string& path) {
 }
 
 std::string type_of(const fs::path& file) {
-  static const std::map<std::string, const char*> types{
-      {".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"},
-      {".css", "text/css; charset=utf-8"},   {".json", "application/json"},
-      {".webp", "image/webp"},               {".jpg", "image/jpeg"},
-      {".png", "image/png"},                 {".glb", "model/gltf-binary"},
-      {".svg", "image/svg+xml"},             {".txt", "text/plain; charset=utf-8"}};
+  static const std::map<std::string, const char*> types{{".html", "text/html; charset=utf-8"},
+                                                        {".js", "text/javascript; charset=utf-8"},
+                                                        {".css", "text/css; charset=utf-8"},
+                                                        {".json", "application/json"},
+                                                        {".webp", "image/webp"},
+                                                        {".jpg", "image/jpeg"},
+                                                        {".png", "image/png"},
+                                                        {".glb", "model/gltf-binary"},
+                                                        {".svg", "image/svg+xml"},
+                                                        {".txt", "text/plain; charset=utf-8"}};
   const auto found = types.find(file.extension().string());
   return found == types.end() ? "application/octet-stream" : found->second;
 }
@@ -106,8 +111,10 @@ Result<int> serve_site(const ServeOptions& options, const std::function<void(int
     return httplib::Server::HandlerResponse::Handled;
   });
   int port = options.port;
-  if (port == 0) port = server.bind_to_any_port("127.0.0.1");
-  else if (!server.bind_to_port("127.0.0.1", port)) port = -1;
+  if (port == 0)
+    port = server.bind_to_any_port("127.0.0.1");
+  else if (!server.bind_to_port("127.0.0.1", port))
+    port = -1;
   if (port <= 0)
     return Error{Cause::unwritable, "PORT", "port " + std::to_string(options.port) + " of this machine cannot be had",
                  "name another with --port, or leave it out for a free one", "showroom"};

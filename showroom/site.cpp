@@ -111,8 +111,10 @@ class Site {
     const std::string title = shown_text(item.title, 120);
     const std::string poster = place_in_item(item.looks.front(), "poster.webp");
     const auto common = [&](Page& p) {
-      p.text("title", title).text("alt", alt_of(item)).html("poster", poster).html(
-          "data", json_for_page(item_json(item, all.bodies)));
+      p.text("title", title)
+          .text("alt", alt_of(item))
+          .html("poster", poster)
+          .html("data", json_for_page(item_json(item, all.bodies)));
     };
     if (auto e = page("item.html", fs::path("item") / item.sku / "index.html", [&](Page& p) {
           common(p);
@@ -163,7 +165,8 @@ class Site {
   }
 
   /// Whether there is a photo to be shown; a lost one is no reason to do without the item.
-  bool write_side(const ShownItem& item, const std::string& named, const fs::path& out, ShowroomSummary& summary) const {
+  bool write_side(const ShownItem& item, const std::string& named, const fs::path& out,
+                  ShowroomSummary& summary) const {
     if (named.empty()) return false;
     fs::path photo(named);
     if (photo.is_relative() && !options_.photo_root.empty()) photo = fs::path(options_.photo_root) / photo;
@@ -205,8 +208,8 @@ class Site {
       return e;
     if (auto e = page("all.html", "all.html", [&](Page& p) { p.html("links", links).html("count", count); })) return e;
     if (auto e = page("outfits.html", "outfits.html", [](Page&) {})) return e;
-    if (auto e = page("size.html", "size.html",
-                      [&](Page& p) { p.html("data", json_for_page(bodies_json(all.bodies))); }))
+    if (auto e =
+            page("size.html", "size.html", [&](Page& p) { p.html("data", json_for_page(bodies_json(all.bodies))); }))
       return e;
     return write_file((root_ / mark).string(), "{\"generator\":\"vitrine showroom\",\"items\":" + count + "}\n");
   }

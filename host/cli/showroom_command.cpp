@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "showroom_command.hpp"
+
 #include <spdlog/spdlog.h>
 
 #include <csignal>
@@ -6,7 +8,6 @@
 #include <filesystem>
 
 #include "common.hpp"
-#include "showroom_command.hpp"
 #include "vitrine/showroom.hpp"
 
 namespace vitrine::cli {

@@ -10,10 +10,10 @@ namespace vitrine {
 
 /// A static site made of a finished catalogue (docs/SHOWROOM.md).
 struct ShowroomOptions {
-  std::string catalogue;  ///< folder with report.jsonl and the items' folders
-  std::string out;        ///< folder of the site; made anew in one step
-  std::string assets;     ///< folder with templates/, app/ and vendor/, as installed
-  std::string photo_root; ///< where photos with relative paths lie; empty = the current folder
+  std::string catalogue;   ///< folder with report.jsonl and the items' folders
+  std::string out;         ///< folder of the site; made anew in one step
+  std::string assets;      ///< folder with templates/, app/ and vendor/, as installed
+  std::string photo_root;  ///< where photos with relative paths lie; empty = the current folder
   std::string title = "Show room";
   std::string language = "en";  ///< BCP 47 tag of the titles, for the pages' lang attribute
 };
