@@ -60,7 +60,7 @@ WornBody body_of(const Json& report, const std::string& size) {
   if (source == "built-in man") body.sex = "man";
   body.label = size.empty() ? source : size;
   const Json& mm = part_of(mannequin, "measurements_mm");
-  for (std::size_t i = 0; i < body.cm.size(); ++i) body.cm[i] = number_of(mm, body_measures[i]) / 10;
+  for (std::size_t i = 0; i < body.cm.size(); ++i) body.cm[i] = std::round(number_of(mm, body_measures[i])) / 10;
   if (std::any_of(body.cm.begin(), body.cm.end(), [](double v) { return !(v > 0); })) body.cm.fill(0);
   return body;
 }

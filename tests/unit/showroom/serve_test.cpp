@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <httplib.h>
 
 #include <atomic>
 #include <future>
 #include <thread>
 
 #include "shop.hpp"
+
+// After Eigen, whose parameters have the name of a macro that this brings along.
+#include <httplib.h>
 
 using namespace vitrine;
 
