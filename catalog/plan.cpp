@@ -6,7 +6,7 @@
 #include <set>
 
 #include "output.hpp"
-#include "sku.hpp"
+#include "vitrine/sku.hpp"
 
 namespace vitrine {
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "report.hpp"
+#include "vitrine/escaped.hpp"
 
 namespace vitrine {
 
@@ -43,8 +44,5 @@ std::optional<Error> write_reports(const std::filesystem::path& folder, const st
 std::string junit_xml(const std::vector<ParsedLine>& lines);
 std::string report_html(const std::vector<ParsedLine>& lines, const ReportScope& scope,
                         const std::filesystem::path& root);
-
-/// A text as it may stand in HTML or XML, in an attribute too. Characters that XML 1.0 has not become U+FFFD.
-std::string escaped(const std::string& text);
 
 }  // namespace vitrine

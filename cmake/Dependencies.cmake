@@ -19,6 +19,10 @@ find_package(OpenSSL 3.0 REQUIRED COMPONENTS Crypto)                 # debian: l
 find_package(expat 2.5 REQUIRED)                                     # debian: libexpat1-dev
 find_library(RE2_LIBRARY re2 REQUIRED)                               # debian: libre2-dev
 find_path(RE2_INCLUDE_DIR re2/re2.h REQUIRED)
+find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)                    # debian: libcpp-httplib-dev
+find_path(HTTPLIB_INCLUDE_DIR httplib.h REQUIRED)
+# Fetches the show room's viewer; scripts/install-deps installs it where there is none.
+find_program(NPM_PROGRAM npm)
 if(VITRINE_TESTS)
   find_package(GTest REQUIRED)                                       # debian: libgtest-dev libgmock-dev
   # Plugins are built by other people's tools. Where one is missing its tests are there and fail.

@@ -7,7 +7,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "../sku.hpp"
+#include "vitrine/sku.hpp"
 #include "text.hpp"
 
 namespace vitrine::input {

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "../sku.hpp"
+#include "vitrine/sku.hpp"
 
 namespace vitrine::input {
 namespace {

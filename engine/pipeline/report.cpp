@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "as_given.hpp"
@@ -33,6 +34,15 @@ Json texture_json(const TextureFigures& f) {
           {"light_gain", f.gain},
           {"filled_share", f.filled_share},
           {"print_taken_off_share", f.print_share}};
+}
+
+/// The paper's eight measurements, as they are read off the mesh.
+Json mannequin_json(const Mannequin& body) {
+  Json j{{"source", body.source}};
+  for (const char* name : {"height", "bust", "under_bust", "waist", "hip", "inside_leg", "arm", "neck_base"})
+    if (const auto found = body.girths.find(name); found != body.girths.end())
+      j["measurements_mm"][name] = std::round(found->second * 1e4) / 10;
+  return j;
 }
 
 Json commerce_json(const std::vector<CommerceFinding>& findings) {
@@ -73,7 +83,7 @@ void add_facts(Json& j, const ConvertRequest& request, const Conversion& item) {
                  {"back", mesh_json(item.pattern.meshes[1])},
                  {"seam_pairs", item.pattern.pairs.size()}};
   }
-  if (request.body) j["mannequin"] = {{"source", request.body->mannequin.source}};
+  if (request.body) j["mannequin"] = mannequin_json(request.body->mannequin);
   const Drape& d = item.drape;
   if (!d.status.empty()) {
     Json levels = Json::array();

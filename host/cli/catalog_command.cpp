@@ -8,6 +8,7 @@
 #include "catalog_input.hpp"
 #include "catalog_item.hpp"
 #include "common.hpp"
+#include "showroom_command.hpp"
 #include "vitrine/catalog.hpp"
 #include "vitrine/run_catalog.hpp"
 
@@ -22,6 +23,7 @@ struct CatalogArguments {
   InputFlags input;
   std::string manifest, shard, item_memory = "4G", progress = "auto", fail_on = "any";
   std::vector<std::string> mannequins;
+  ShowroomOptions showroom;  ///< no site when `out` is empty
 };
 
 struct MergeArguments {
@@ -88,7 +90,7 @@ std::string plugins_text(const PluginRegistry& registry) {
 /// All options of the command that decide an item's bytes, with their values: every one but those that are known not
 /// to, so that an option that is new makes items anew.
 std::string settings_text(const CLI::App& command) {
-  static const std::set<std::string> how_to_run{"Run", "Limits", "Plugins", "Mannequin", "Input"};
+  static const std::set<std::string> how_to_run{"Run", "Limits", "Plugins", "Mannequin", "Input", "Show room"};
   static const std::set<std::string> others{"manifest", "--out", "--jobs", "--help"};
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
@@ -113,6 +115,9 @@ int run_catalog_command(CatalogArguments& arguments, const std::string& settings
   if (!arguments.mannequins.empty() && !arguments.mannequin.file.empty())
     return fail(usage("--mannequin and --mannequins exclude each other", "leave one out"));
   if (auto e = MannequinShelf::check_run(arguments.mannequins)) return fail(*e);
+  if (!arguments.showroom.out.empty() && options.shards > 1)
+    return fail(usage("--showroom needs the whole catalogue, not a shard of it",
+                      "merge the shards, then run vitrine showroom"));
 
   const auto items = read_items(arguments.manifest, arguments.input.options());
   if (!items) return fail_run(items.error());
@@ -143,7 +148,13 @@ int run_catalog_command(CatalogArguments& arguments, const std::string& settings
       "{} of {} ok ({} unchanged), {} partly, {} refused, {} failed, {} crashed, {} timed out, {} not run; report: {}",
       summary->ok, summary->total, summary->unchanged, summary->partly, summary->refused, summary->failed,
       summary->crashed, summary->timed_out, summary->not_run, summary->report);
-  return summary->exit_code;
+  // What is finished can be shown, whatever was refused; an interrupted run, or one shard of several, is not the
+  // catalogue.
+  if (arguments.showroom.out.empty() || summary->exit_code == static_cast<int>(Cause::temporary))
+    return summary->exit_code;
+  arguments.showroom.catalogue = options.out_dir;
+  const int shown = write_showroom(arguments.showroom);
+  return summary->exit_code != 0 ? summary->exit_code : shown;
 }
 
 int merge_command(MergeArguments& arguments) {
@@ -204,6 +215,10 @@ void add_run(CLI::App& command, CLI::App& app, int& exit_code) {
                   "Memory an item may take besides what all share, e.g. 500M; 0 = no limit")
       ->capture_default_str()
       ->group("Limits");
+  run->add_option("--showroom", a->showroom.out,
+                  "At the end, also write a static site of the catalogue into this folder")
+      ->group("Show room");
+  add_showroom_options(*run, a->showroom);
   a->job.add_to(*run);
   a->mannequin.add_to(*run);
   a->plugins.add_to(*run);

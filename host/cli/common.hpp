@@ -68,6 +68,7 @@ void add_features(CLI::App& app, int& exit_code);
 void add_mannequin(CLI::App& app, int& exit_code);
 void add_measure(CLI::App& app, int& exit_code);
 void add_plugin(CLI::App& app, int& exit_code);
+void add_showroom(CLI::App& app, int& exit_code);
 /// `vitrine plugin new NAME`: a project to start a plugin from.
 void add_plugin_new(CLI::App& plugin_command, int& exit_code);
 

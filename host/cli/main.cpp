@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   cli::add_mannequin(app, exit_code);
   cli::add_measure(app, exit_code);
   cli::add_plugin(app, exit_code);
+  cli::add_showroom(app, exit_code);
 
   auto log = spdlog::stderr_color_mt("vitrine");
   log->set_pattern("%v");

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "read_input.hpp"
-#include "sku.hpp"
+#include "vitrine/sku.hpp"
 
 namespace {
 
