@@ -15,7 +15,7 @@
 namespace vitrine::bench {
 namespace {
 
-struct Settings {
+struct BenchSettings {
   std::string folder, out;
   int size = 2048, quality = 0;
   bool pictures = true;
@@ -46,7 +46,7 @@ Image through_file(const Atlas& atlas, std::size_t& bytes, int& quality) {
   return rgb;
 }
 
-void run(Variant variant, const char* title, const Settings& s, const PluginRegistry& registry,
+void run(Variant variant, const char* title, const BenchSettings& s, const PluginRegistry& registry,
          const std::shared_ptr<const Body>& body) {
   std::printf("\n%s\n%-22s %9s %7s %4s %9s %9s %9s %9s %11s %8s %8s %7s\n", title, "item", "atlas", "kB", "q",
               "front dB", "back dB", "mask dB", "scale", "board", "dE point", "dE seam", "gain");
@@ -91,7 +91,7 @@ void run(Variant variant, const char* title, const Settings& s, const PluginRegi
 }
 
 /// Processor seconds of a picture of 800 x 1,000 and of the occlusion, on whole standard items.
-void time_pictures(const PluginRegistry& registry, const std::shared_ptr<const Body>& body, const Settings& s) {
+void time_pictures(const PluginRegistry& registry, const std::shared_ptr<const Body>& body, const BenchSettings& s) {
   std::printf("\nprocessor seconds\n%-22s %16s %16s %10s %10s\n", "item", "picture 800x1000", "occlusion", "garment kB",
               "dressed kB");
   for (TextureCase& c : make_cases(Variant::plain, s.folder, registry, body)) {
@@ -138,7 +138,7 @@ std::vector<double> shown_occlusion(const RenderMesh& mesh) {
 }
 
 /// What coarser occlusion and fewer rays cost and change, against 512 rays for each texel of 1.5 mm.
-void trade_occlusion(const PluginRegistry& registry, const std::shared_ptr<const Body>& body, const Settings& s) {
+void trade_occlusion(const PluginRegistry& registry, const std::shared_ptr<const Body>& body, const BenchSettings& s) {
   std::printf("\nocclusion: processor seconds, and difference from 512 rays at 1.5 mm in levels of 0 to 255\n");
   std::printf("%-22s %9s %6s %9s %9s %9s %11s\n", "item", "texel mm", "rays", "seconds", "mean", "p99", "body mean");
   for (TextureCase& c : make_cases(Variant::plain, s.folder, registry, body)) {
@@ -174,7 +174,7 @@ int main(int argc, char** argv) {
   using namespace vitrine::bench;
   cv::setNumThreads(1);
   CLI::App app("Texture fidelity, board at outlines, colour steps at seams, price of pictures");
-  Settings s;
+  BenchSettings s;
   bool texture = true;
   app.add_option("--size", s.size, "Largest atlas [px]")->capture_default_str();
   app.add_option("--quality", s.quality, "JPEG quality; 0 = as the writer chooses")->capture_default_str();

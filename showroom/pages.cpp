@@ -59,7 +59,7 @@ Result<std::string> Page::done() const {
 std::string json_for_page(const Json& json) {
   std::string out;
   for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-    if (c == '<' || c == '>' || c == '&') {
+    if (c == '<' || c == '>' || c == '&' || c == '\'') {
       char code[8];
       std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
       out += code;

@@ -22,7 +22,7 @@ class Page {
   std::map<std::string, std::string> values_;
 };
 
-/// JSON as it may stand in a script element: ASCII, without <, > and &.
+/// JSON as it may stand in a script element or an attribute: ASCII, without <, >, & and apostrophes.
 std::string json_for_page(const nlohmann::json& json);
 
 /// A word for people from an id of a plugin: "long_sleeve" is "Long sleeve", "neck_u" is "U neck".

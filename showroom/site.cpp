@@ -194,8 +194,8 @@ class Site {
       Json list = Json::array();
       for (std::size_t i = c * cards_in_chunk; i < std::min(all.items.size(), (c + 1) * cards_in_chunk); ++i)
         list.push_back(card_json(all.items[i]));
-      if (auto e = write_file((root_ / "data" / ("items-" + std::to_string(c) + ".json")).string(),
-                              list.dump(-1, ' ', true, Json::error_handler_t::replace)))
+      if (auto e =
+              write_file((root_ / "data" / ("items-" + std::to_string(c) + ".json")).string(), json_for_page(list)))
         return e;
     }
     const std::string count = std::to_string(all.items.size());
