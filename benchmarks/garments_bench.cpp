@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "marked_photos.hpp"
 #include "vitrine/host/registry.hpp"
 #include "vitrine/pipeline.hpp"
 
@@ -16,29 +17,9 @@ namespace {
 using namespace vitrine;
 namespace fs = std::filesystem;
 
-struct Item {
-  std::string name, garment, front, back;  ///< back: empty where the front is mirrored
-};
-
-/// Fronts listed in a folder's index.tsv (file, garment, neckline, view, ...), of the garments that are loaded.
-std::vector<Item> marked_photos(const fs::path& folder, const PluginRegistry& registry) {
-  std::vector<Item> items;
-  std::ifstream index(folder / "index.tsv");
-  std::string line;
-  while (std::getline(index, line)) {
-    std::istringstream row(line);
-    std::string file, garment, neckline, view;
-    for (auto* field : {&file, &garment, &neckline, &view}) std::getline(row, *field, '\t');
-    if (garment == "longsleeve") garment = "long_sleeve";
-    if (garment == "tshirt") garment = "t_shirt";
-    if (view != "front" || !registry.find_garment(garment)) continue;
-    Item item{file.substr(0, file.find("-front")), garment, (folder / file).string(), ""};
-    file.replace(file.find("front"), 5, "back");
-    if (fs::exists(folder / file)) item.back = (folder / file).string();
-    items.push_back(std::move(item));
-  }
-  return items;
-}
+using bench::Item;
+using bench::marked_photos;
+using bench::must;
 
 std::vector<Item> sample_photos() {
   std::vector<Item> items;
@@ -50,15 +31,9 @@ std::vector<Item> sample_photos() {
     const auto space = text.find(' ');
     const std::string name = text.substr(space + 1),
                       photo = std::string(VITRINE_SOURCE_DIR) + "/catalog/sample/" + name;
-    items.push_back({name, text.substr(0, space), photo + "-front.jpg", photo + "-back.jpg"});
+    items.push_back({name, text.substr(0, space), photo + "-front.jpg", photo + "-back.jpg", ""});
   }
   return items;
-}
-
-template <class T>
-T must(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().code + ": " + result.error().message);
-  return *std::move(result);
 }
 
 /// A preset such as woman-xs, or a mesh file.

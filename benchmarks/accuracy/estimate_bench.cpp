@@ -9,7 +9,8 @@
 #include <numeric>
 #include <sstream>
 
-#include "surface_distance.hpp"
+#include "../marked_photos.hpp"
+#include "vitrine/accuracy.hpp"
 #include "vitrine/catalog.hpp"
 #include "vitrine/host/registry.hpp"
 #include "vitrine/pipeline.hpp"
@@ -19,42 +20,15 @@ namespace {
 using namespace vitrine;
 namespace fs = std::filesystem;
 
-struct Item {
-  std::string name, garment, front, back;  ///< back: empty where the front is mirrored
-  double chest = 0, length = 0;            ///< [m]
-};
-
-/// Fronts listed in a folder's index.tsv (file, garment, neckline, view, ...), of the garments that are loaded.
-std::vector<Item> marked_photos(const fs::path& folder, const PluginRegistry& registry) {
-  std::vector<Item> items;
-  std::ifstream index(folder / "index.tsv");
-  std::string line;
-  while (std::getline(index, line)) {
-    std::istringstream row(line);
-    std::string file, garment, neckline, view;
-    for (auto* field : {&file, &garment, &neckline, &view}) std::getline(row, *field, '\t');
-    if (garment == "longsleeve") garment = "long_sleeve";
-    if (garment == "tshirt") garment = "t_shirt";
-    if (view != "front" || !registry.find_garment(garment)) continue;
-    Item item{file.substr(0, file.find("-front")), garment, (folder / file).string(), ""};
-    file.replace(file.find("front"), 5, "back");
-    if (fs::exists(folder / file)) item.back = (folder / file).string();
-    items.push_back(std::move(item));
-  }
-  return items;
-}
-
-template <class T>
-T must(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().code + ": " + result.error().message);
-  return *std::move(result);
-}
+using bench::Item;
+using bench::marked_photos;
+using bench::must;
 
 std::vector<Item> of_manifest(const std::string& file) {
   std::vector<Item> items;
   for (const CatalogItem& row : must(read_manifest(file)))
-    items.push_back({row.sku, row.garment, row.front, row.mirror_back ? "" : row.back, row.chest_cm.value_or(0) / 100,
-                     row.length_cm.value_or(0) / 100});
+    items.push_back({row.sku, row.garment, row.front, row.mirror_back ? "" : row.back, "",
+                     row.chest_cm.value_or(0) / 100, row.length_cm.value_or(0) / 100});
   return items;
 }
 
@@ -64,17 +38,6 @@ std::shared_ptr<const Body> body_of(const std::string& who) {
   body->mannequin = must(preset ? build_mannequin(*preset) : import_mannequin(who));
   body->field = must(voxelise(body->mannequin.mesh));
   return body;
-}
-
-bench::Surface surface_of(const Conversion& made) {
-  bench::Surface s;
-  for (std::size_t p = 0; p < made.drape.positions.size(); ++p) {
-    const auto base = static_cast<std::uint32_t>(s.points.size());
-    s.points.insert(s.points.end(), made.drape.positions[p].begin(), made.drape.positions[p].end());
-    for (const Triangle& t : made.pattern.meshes[p].triangles)
-      s.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
-  return s;
 }
 
 double sewing_seconds(const Conversion& made) {
@@ -141,18 +104,18 @@ int main(int argc, char** argv) {
         }
       }
       if (made.size() < nodes.size() || made.back().drape.levels.empty()) continue;
-      const bench::Surface reference = surface_of(made.back());
+      const TriMesh reference = garment_surface(made.back().pattern, made.back().drape);
       for (std::size_t l = 0; l < made.size(); ++l) {
         const Drape& d = made[l].drape;
         const LevelFigures& f = d.levels.back();
-        bench::SurfaceDistance gap;
-        if (l + 1 < made.size()) gap = bench::surface_distance(surface_of(made[l]), reference);
+        SurfaceDistance gap;
+        if (l + 1 < made.size()) gap = surface_distance(garment_surface(made[l].pattern, made[l].drape), reference);
         char row[500];
         std::snprintf(row, sizeof row, "%s,%s,%s,%s,%zu,%d,%.2f,%d,%.2e,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.2f,%.3f,%s\n",
                       set.c_str(), item.name.c_str(), item.garment.c_str(), made[l].fabric.name.c_str(), l, f.nodes,
                       f.edge_mm, f.iterations, d.residual, f.change_mean_mm, f.change_surface_mm, f.loose_share,
-                      d.error_estimate_mm.value_or(-1), 1e3 * gap.mean, 1e3 * gap.p95, 1e3 * gap.most,
-                      sewing_seconds(made[l]), d.status.c_str());
+                      d.error_estimate_mm.value_or(-1), gap.mean_mm, gap.p95_mm, gap.max_mm, sewing_seconds(made[l]),
+                      d.status.c_str());
         out << row << std::flush;
         std::fputs(row, stdout);
         std::fflush(stdout);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "../marked_photos.hpp"
 #include "vitrine/fidelity.hpp"
 #include "vitrine/host/registry.hpp"
 #include "vitrine/pipeline.hpp"
@@ -16,36 +17,9 @@ namespace {
 using namespace vitrine;
 namespace fs = std::filesystem;
 
-struct Item {
-  std::string name, garment, front, back, mask;
-};
-
-/// Fronts listed in a folder's index.tsv (file, garment, neckline, view, ...), of the garments that are loaded.
-std::vector<Item> marked_photos(const fs::path& folder, const PluginRegistry& registry) {
-  std::vector<Item> items;
-  std::ifstream index(folder / "index.tsv");
-  std::string line;
-  while (std::getline(index, line)) {
-    std::istringstream row(line);
-    std::string file, garment, neckline, view;
-    for (auto* field : {&file, &garment, &neckline, &view}) std::getline(row, *field, '\t');
-    if (garment == "longsleeve") garment = "long_sleeve";
-    if (garment == "tshirt") garment = "t_shirt";
-    if (view != "front" || !registry.find_garment(garment)) continue;
-    Item item{file.substr(0, file.find("-front")), garment, (folder / file).string(), "", ""};
-    item.mask = (folder / (fs::path(file).stem().string() + ".mask.png")).string();
-    file.replace(file.find("front"), 5, "back");
-    if (fs::exists(folder / file)) item.back = (folder / file).string();
-    items.push_back(std::move(item));
-  }
-  return items;
-}
-
-template <class T>
-T must(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().code + ": " + result.error().message);
-  return *std::move(result);
-}
+using bench::Item;
+using bench::marked_photos;
+using bench::must;
 
 /// The silhouette that was marked by hand, turned as the photo was; empty where its size is another.
 Image marked_labels(const Item& item, const Photo& photo) {

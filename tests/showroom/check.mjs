@@ -32,8 +32,12 @@ async function accessible(page, session, name) {
   });
   expect(found.length === 0, `${name}: no serious or critical finding of axe-core ${found.join(' | ')}`);
 }
-const picture = (page, name) => pictures && page.screenshot({ path: join(pictures, name), type: 'jpeg', quality: 82 });
-const settle = (page) => page.evaluate(() => new Promise((r) => setTimeout(r, 500)));
+const settle = (page, ms = 500) => page.evaluate((t) => new Promise((r) => setTimeout(r, t)), ms);
+const picture = async (page, name) => {
+  if (!pictures) return;
+  await settle(page, 2000); // the viewer's progress bar fades
+  await page.screenshot({ path: join(pictures, name), type: 'jpeg', quality: 82 });
+};
 
 try {
   const { page, faults: noise, session } = await open(browser, site);

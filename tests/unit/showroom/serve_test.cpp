@@ -69,4 +69,5 @@ TEST_F(Serve, takes_get_and_head_alone_and_no_other_hosts_name) {
   EXPECT_EQ(client->Post("/", "x", "text/plain")->status, 405);
   EXPECT_EQ(client->Delete("/")->status, 405);
   EXPECT_EQ(client->Get("/", {{"Host", "shop.example"}})->status, 403);
+  EXPECT_EQ(client->Get("/", {{"Host", "localhost.shop.example:80"}})->status, 403);
 }
