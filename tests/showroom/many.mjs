@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // node many.mjs VITRINE CATALOGUE [N]: makes a catalogue of N items (1,000) by linking those of a finished one under new
 // names, hostile titles among them, writes its show room, and measures: bytes of the first paint, models loaded while the
-// whole grid is scrolled (none), memory while 50 items are opened in turn.
+// whole grid is scrolled (none), memory while 50 items are opened in turn (where there are as many).
 import { execFileSync } from 'node:child_process';
 import { cpSync, linkSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -13,6 +13,7 @@ if (!catalogue) {
   console.error('usage: node many.mjs VITRINE CATALOGUE [N]');
   process.exit(64);
 }
+const opened = 50; // fewer say nothing of leaks, and software draws each for seconds
 const n = Number(wanted), hostile = [
   '</title><script>document.title="hacked"</script>', '"><img src=x onerror=alert(1)>', 'x'.repeat(10_000),
   'חולצה עם "ציטוט" & <b>תגיות</b>', '../../../etc/passwd', '\u202Egpj.exe',
@@ -69,23 +70,24 @@ try {
   const models = seen.filter((r) => /\.glb$/.test(r.url)).length;
   expect(models === 0, `${models} models were loaded by scrolling`);
 
-  // The same page changes places, as a shopper's does; what is left over after garbage collection is what leaks.
-  await page.setViewport({ width: 360, height: 480 }); // pixels cost, and none of them is looked at
-  const heap = [];
-  const many = Math.min(50, n);
-  for (let i = 0; i < many; ++i) {
-    const sku = JSON.parse(report[i + (n > 60 ? 6 : 0)]).sku;
-    await page.goto(`${site.url}item/${sku}/index.html`, { waitUntil: 'load' });
-    await shown(page);
-    await session.send('HeapProfiler.collectGarbage');
-    const m = await page.metrics();
-    heap.push({ heap: m.JSHeapUsedSize / 1e6, nodes: m.Nodes, documents: m.Documents });
+  if (n >= opened + hostile.length) {
+    // The same page changes places, as a shopper's does; what is left over after garbage collection is what leaks.
+    await page.setViewport({ width: 360, height: 480 }); // pixels cost, and none of them is looked at
+    const heap = [];
+    for (let i = 0; i < opened; ++i) {
+      const sku = JSON.parse(report[i + hostile.length]).sku;
+      await page.goto(`${site.url}item/${sku}/index.html`, { waitUntil: 'load' });
+      await shown(page);
+      await session.send('HeapProfiler.collectGarbage');
+      const m = await page.metrics();
+      heap.push({ heap: m.JSHeapUsedSize / 1e6, nodes: m.Nodes, documents: m.Documents });
+    }
+    const mean = (list, key) => list.reduce((s, h) => s + h[key], 0) / list.length;
+    const early = heap.slice(5, 15), late = heap.slice(-10);
+    expect(mean(late, 'heap') < 1.15 * mean(early, 'heap') + 2,
+      `memory after ${opened} items: ${mean(late, 'heap').toFixed(1)} MB of heap, ${mean(early, 'heap').toFixed(1)} MB after the first; ` +
+      `${mean(late, 'documents').toFixed(0)} documents, ${mean(late, 'nodes').toFixed(0)} nodes`);
   }
-  const mean = (list, key) => list.reduce((s, h) => s + h[key], 0) / list.length;
-  const early = heap.slice(5, 15), late = heap.slice(-10);
-  expect(mean(late, 'heap') < 1.15 * mean(early, 'heap') + 2,
-    `memory after ${many} items: ${mean(late, 'heap').toFixed(1)} MB of heap, ${mean(early, 'heap').toFixed(1)} MB after the first; ` +
-    `${mean(late, 'documents').toFixed(0)} documents, ${mean(late, 'nodes').toFixed(0)} nodes`);
   expect(faults.length === 0, `no errors, no requests outside ${faults.slice(0, 4).join(' | ')}`);
   site.close();
 } catch (error) {
