@@ -2,7 +2,6 @@
 #include "worker.hpp"
 
 #include <fcntl.h>
-#include <malloc.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -60,14 +59,6 @@ void set_limits(const CatalogOptions& options) {
   }
 }
 
-/// Pictures come and go by the hundred: memory that an item has once touched is given back when its process ends.
-/// Handing it back in between would cost a page fault for each 4 KB of the next picture.
-void keep_memory() {
-  ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
-  ::mallopt(M_TOP_PAD, 16 << 20);
-}
-
 ItemOutcome convert_safely(const CatalogItem& item, const std::string& folder, const ItemFunction& convert) {
   try {
     return convert(item, folder);
@@ -103,7 +94,6 @@ Fingerprints files_in(const std::filesystem::path& folder) {
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   set_limits(options);
-  keep_memory();
   ItemOutcome outcome = convert_safely(item, folder, convert);
   if (outcome.report_json_line.size() > max_report) outcome.report_json_line.clear();
   if (auto error = add_reason(item, outcome, folder))

@@ -2,7 +2,6 @@
 #include "lights.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "vitrine/sampling.hpp"
@@ -49,18 +48,9 @@ Lights::Lights(const Tracer& tracer, const Camera& camera, int rays)
 
 float Lights::lit(const Vec3& point, double spread, int rays, int x, int y) const {
   const Sequence sequence(x, y, 2);
-  int open = 0;
-  for (int k = 0; k < rays; k += 4) {
-    std::array<Vec3, 4> directions;
-    std::array<double, 4> reach;
-    const int count = std::min(4, rays - k);
-    for (int i = 0; i < 4; ++i) {
-      directions[i] = i < count ? cone_direction(key_, spread, sequence.point(k + i)) : key_;
-      reach[i] = i < count ? kFarthest : -1.0;
-    }
-    const auto blocked = tracer_.blocked(point, directions, reach);
-    for (int i = 0; i < count; ++i) open += !blocked[i];
-  }
+  const int open = tracer_.count_free(point, rays, [&](int k) {
+    return std::pair(cone_direction(key_, spread, sequence.point(k)), double{kFarthest});
+  });
   return static_cast<float>(open) / static_cast<float>(rays);
 }
 

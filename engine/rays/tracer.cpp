@@ -139,29 +139,16 @@ std::array<std::optional<Hit>, 4> Tracer::first_hits(const Vec3& from, const std
   return hits;
 }
 
-bool Tracer::blocked(const Vec3& from, const Vec3& direction, double reach) const {
-  RTCRay ray{};
-  set_ray(ray, from, direction, 0.0F, static_cast<float>(reach));
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_->scene, &context, &ray);
-  return ray.tfar < 0;  // Embree's sign for "something is in the way"
-}
-
 std::array<bool, 4> Tracer::blocked(const Vec3& from, const std::array<Vec3, 4>& directions,
                                     const std::array<double, 4>& reach) const {
   RTCRay4 rays{};
   set_rays(rays, from, directions);
-  alignas(16) int valid[4];
-  for (int i = 0; i < 4; ++i) {
-    rays.tfar[i] = static_cast<float>(reach[i]);
-    valid[i] = reach[i] < 0 ? 0 : -1;
-  }
+  for (int i = 0; i < 4; ++i) rays.tfar[i] = static_cast<float>(reach[i]);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcOccluded4(valid, scene_->scene, &context, &rays);
+  rtcOccluded4(all_valid, scene_->scene, &context, &rays);
   std::array<bool, 4> in_the_way{};
-  for (int i = 0; i < 4; ++i) in_the_way[i] = valid[i] != 0 && rays.tfar[i] < 0;
+  for (int i = 0; i < 4; ++i) in_the_way[i] = rays.tfar[i] < 0;  // Embree's sign for it
   return in_the_way;
 }
 

@@ -39,6 +39,10 @@ def bars(data):
     missed = sum(b["met"] is False for b in found)
     unknown = sum(b["met"] is None for b in found)
     text = f"## What was asked, and what came out\n\n{sum(b['met'] is True for b in found)} met, {missed} missed, {unknown} not measured.\n\n"
+    wanted = tables.ITEMS_WANTED
+    known = sum(number(r["mean_mm"]) is not None for r in tables.runs_of(data, "standard"))
+    if 0 < known < wanted:
+        text += f"The errors below are those of {known} items; the bars ask for {wanted}, so their verdicts may still turn.\n\n"
     return text + table(("figure", "bar", "measured", ""),
                         [(b["what"], b["bar"], b["figure"], word[b["met"]]) for b in found])
 
@@ -112,7 +116,7 @@ def budget(data):
     rows = [r for r in data["budget"] or [] if number(r["asked_mm"]) is not None]
     if not rows:
         return ""
-    rows = [(r["item"], r["asked_mm"], r["estimated_mm"], r["true_mm"], r["met"],
+    rows = [(r["item"], r["asked_mm"], figure(number(r["estimated_mm"])), figure(number(r["true_mm"])), r["met"],
              figure(number(r["cpu_ms"]) and number(r["cpu_ms"]) / 1000) + " s",
              figure(number(r["fine_cpu_ms"]) and number(r["fine_cpu_ms"]) / 1000) + " s") for r in rows]
     return ("## Asking for millimetres\n\n`--max-error` names the error that may be left; the program chooses how much to compute.\n\n"

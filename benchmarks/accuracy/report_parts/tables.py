@@ -6,6 +6,7 @@ import math
 import statistics
 
 QUALITIES = ("draft", "standard", "fine")
+ITEMS_WANTED = 24  # twelve real ones, twelve generated
 COLUMNS = {
     "runs": ("item", "source", "garment", "setting", "knob", "value", "nodes", "cpu_ms", "status", "mean_mm", "p95_mm",
              "max_mm", "hem_mm", "waist_mm", "chest_mm", "estimate_mm", "spread_mm", "peak_mb"),

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "vitrine/model/garment.hpp"
 #include "vitrine/model/result.hpp"
@@ -31,16 +34,29 @@ class Tracer {
  public:
   static Result<Tracer> build(std::span<const RenderMesh> meshes);
   std::optional<Hit> first_hit(const Vec3& from, const Vec3& direction) const;
-  bool blocked(const Vec3& from, const Vec3& direction, double reach) const;
-  /// Which of four rays from one point something is in the way of within its reach [m]. A ray of reach < 0 is none.
-  std::array<bool, 4> blocked(const Vec3& from, const std::array<Vec3, 4>& directions,
-                              const std::array<double, 4>& reach) const;
+  /// How many of `rays` rays from one point have nothing in their way; `ray(k)` is the k-th one's direction and reach
+  /// [m]. They go four at a time: where they are short or go much the same way, they pass the same few boxes.
+  template <class F>
+  int count_free(const Vec3& from, int rays, F&& ray) const {
+    int free = 0;
+    for (int k = 0; k < rays; k += 4) {
+      std::array<Vec3, 4> directions;
+      std::array<double, 4> reach;
+      const int count = std::min(4, rays - k);
+      for (int i = 0; i < 4; ++i) std::tie(directions[i], reach[i]) = ray(k + std::min(i, count - 1));
+      const std::array<bool, 4> in_the_way = blocked(from, directions, reach);
+      free += static_cast<int>(std::count(in_the_way.begin(), in_the_way.begin() + count, false));
+    }
+    return free;
+  }
   /// Four rays from one point that go much the same way, at the price of about one and a half.
   std::array<std::optional<Hit>, 4> first_hits(const Vec3& from, const std::array<Vec3, 4>& directions) const;
 
  private:
   struct Scene;
   explicit Tracer(std::shared_ptr<Scene> scene) : scene_(std::move(scene)) {}
+  std::array<bool, 4> blocked(const Vec3& from, const std::array<Vec3, 4>& directions,
+                              const std::array<double, 4>& reach) const;
   std::shared_ptr<Scene> scene_;
 };
 
