@@ -11,6 +11,7 @@ namespace {
 
 constexpr double apart = 0.0015;  // [m] between front and back: two thicknesses of cloth, and no flicker on a screen
 constexpr double reach = 0.02;    // [m] deeper is not drawn back: it would be another fold of the cloth
+constexpr double by_seam = 0.04;  // [m] beside a seam the panels always touch: two edges of a mesh for the shop
 
 struct Cell {
   std::int64_t key;
@@ -63,7 +64,14 @@ class Grid {
   std::vector<Cell> cells_;
 };
 
-/// Nodes of the cloth that are sewn, or within two edges of one that is.
+double mean_edge(const PanelMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    for (int e = 0; e < 3; ++e) sum += (mesh.nodes[t[e]] - mesh.nodes[t[(e + 1) % 3]]).norm();
+  return sum / (3.0 * static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1)));
+}
+
+/// Nodes of the cloth that are sewn, or within `by_seam` and at least two edges of one that is.
 std::vector<char> near_seams(const Pattern& pattern, const Nodes& nodes) {
   std::uint32_t count = 0;
   for (const auto& n : nodes)
@@ -72,7 +80,9 @@ std::vector<char> near_seams(const Pattern& pattern, const Nodes& nodes) {
   for (const auto n : nodes[0]) in_front[n] = 1;
   for (const auto n : nodes[1])
     if (in_front[n]) near_seam[n] = 1;
-  for (int ring = 0; ring < 2; ++ring) {
+  const double edge = std::max({mean_edge(pattern.meshes[0]), mean_edge(pattern.meshes[1]), 1e-4});
+  const int rings = std::max(2, static_cast<int>(std::ceil(by_seam / edge)));
+  for (int ring = 0; ring < rings; ++ring) {
     const std::vector<char> before = near_seam;
     for (std::size_t p = 0; p < 2; ++p)
       for (const Triangle& t : pattern.meshes[p].triangles)

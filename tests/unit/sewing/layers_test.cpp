@@ -85,5 +85,29 @@ TEST(Layers, forces_are_the_slope_of_the_energy_and_cancel) {
   EXPECT_NEAR(-slope, force[4 * node + 2], 1e-3 * std::abs(force[4 * node + 2]) + 1e-6);
 }
 
+// Next to a seam the panels always touch. How far that reaches is a matter of the cloth: were it one of the mesh, the
+// finest meshes would push at folds that coarser ones rightly leave alone, and never come to rest.
+TEST(Layers, beside_a_seam_are_left_alone_over_the_same_width_on_every_mesh) {
+  for (const int cells : {15, 30, 60}) {
+    Pattern pattern;
+    const PanelMesh mesh = scene::grid_mesh(0.3, 0.3, cells, cells, {0, 0});
+    pattern.meshes = {mesh, mesh};
+    pattern.panels.resize(2);
+    for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i)
+      if (mesh.nodes[i].x() < 1e-9) pattern.pairs.push_back({0, i, 1, i, 0});
+    int count = 0;
+    const Nodes nodes = number_nodes(pattern, std::vector<char>(pattern.pairs.size(), 1), count);
+    Positions x(2);
+    for (std::size_t p = 0; p < 2; ++p)
+      for (const Vec2& q : mesh.nodes) x[p].emplace_back(q.x(), q.y(), p == 0 && q.x() > 1e-9 ? -0.001 : 0);
+    double nearest = 1;
+    for (const LayerPair& pair : find_layers(pattern, nodes, x, 0.02))
+      for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+        if (static_cast<int>(nodes[0][i]) == pair.node) nearest = std::min(nearest, mesh.nodes[i].x());
+    EXPECT_GT(nearest, 0.03) << cells;
+    EXPECT_LT(nearest, 0.07) << cells;
+  }
+}
+
 }  // namespace
 }  // namespace vitrine
