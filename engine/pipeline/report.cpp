@@ -94,6 +94,8 @@ void add_facts(Json& j, const ConvertRequest& request, const Conversion& item) {
                         {"change_mean_mm", l.change_mean_mm},
                         {"change_max_mm", l.change_max_mm},
                         {"change_surface_mm", l.change_surface_mm},
+                        {"loose_turn", l.loose_turn},
+                        {"gap_mm", l.gap_mm},
                         {"error_estimate_mm", l.error_estimate_mm},
                         {"work_units", l.work}});
     j["fabric"] = {{"name", item.fabric.name}, {"stretch", item.fabric.stretch}, {"shear", item.fabric.shear},

@@ -2,6 +2,7 @@
 #include "rooms.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "budget.hpp"
@@ -39,19 +40,15 @@ void fill_inside(Image& labels) {
 }  // namespace
 
 Settings settings_of(Quality quality) {
+  // One way for all: every quality goes along it as far as it goes, so that a finer one is the coarser one refined, and
+  // a request for an error may end anywhere on it. Steps of 1.8 in nodes cost no more than steps of 3: a level that
+  // starts closer to rest needs fewer steps.
+  static constexpr std::array levels{300, 1000, 2000, 3500, 6500, 11'500, 20'000};
   Settings settings;
-  switch (quality) {
-    case Quality::draft:
-      settings.level_nodes = {300};
-      settings.residual = 1e-2;
-      break;
-    case Quality::standard:
-      settings.level_nodes = {300, 2000};
-      break;
-    case Quality::fine:
-      settings.level_nodes = {300, 2000, 6500, 20000};
-      break;
-  }
+  std::size_t count = levels.size();
+  if (quality == Quality::draft) count = 1, settings.residual = 1e-2;
+  if (quality == Quality::standard) count = 3;
+  settings.level_nodes.assign(levels.begin(), levels.begin() + static_cast<long>(count));
   return settings;
 }
 

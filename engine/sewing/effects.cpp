@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "effects.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace vitrine::sewing {
@@ -19,6 +20,20 @@ std::string found(const SelfContact& s) {
 }
 
 }  // namespace
+
+double share_in_reach(const Positions& positions, const DistanceField& body) {
+  Vec3 lo = positions[0][0], hi = lo;
+  for (const auto& panel : positions)
+    for (const Vec3& p : panel) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+  double share = 1;
+  for (int a = 0; a < 3; ++a) {
+    const double length = body.spacing * (body.size[a] - 1);
+    const double from = std::clamp(lo[a] - body.origin[a], 0.0, length),
+                 to = std::clamp(hi[a] - body.origin[a], 0.0, length);
+    share *= (to - from) / length;
+  }
+  return share;
+}
 
 void list_effects(const SewingOptions& options, const SceneNotes& notes, Drape& out) {
   auto& modelled = out.modelled;

@@ -15,6 +15,9 @@ struct SceneNotes {
   SelfContact left;               ///< front and back in the result
 };
 
+/// Share [-] of the field's voxels in the garment's box.
+double share_in_reach(const Positions& positions, const DistanceField& body);
+
 /// Fills `modelled` and `skipped`: each effect once, with the reason and, where a look at the result decided, what was
 /// found.
 void list_effects(const SewingOptions& options, const SceneNotes& notes, Drape& out);

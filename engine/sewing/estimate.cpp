@@ -4,16 +4,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace vitrine::sewing {
 namespace {
 
-// Chosen on the items of benchmarks/accuracy/estimate.csv, which `vitrine-estimate-bench` wrote; rather too large than
-// too small (docs/ARCHITECTURE.md).
-constexpr double tight_share = 0.02, loose_more = 0.19;  // [-] of the edge length: cloth that is held, and that hangs
-constexpr double free_more = 0.7;                        // [-] the same where next to nothing holds it: a flared skirt
-// [-] of what the second level moved, and a later one, still to come where it halved the edges.
-constexpr double second_share = 0.8, later_share = 0.65;
+// Found on items of which none is measured for docs/ACCURACY.md: those of benchmarks/accuracy/estimate.csv, which
+// `vitrine-estimate-bench` wrote (docs/ARCHITECTURE.md).
+constexpr double turn_mm = 32;  // [mm / rad] that folds lie off the mark, by how sharply the mesh turns in them
+constexpr double far_mm = 40;   // [mm] off the body, from where on whole folds of a flared skirt lie somewhere else
 
 }  // namespace
 
@@ -31,24 +30,53 @@ double surface_change(const Pattern& pattern, const Positions& before, const Pos
   return area > 0 ? sum / area : 0;
 }
 
-double loose_share(const Pattern& pattern, const Positions& positions, const DistanceField& body, double offset) {
-  double loose = 0, all = 0;
-  for (std::size_t p = 0; p < pattern.meshes.size(); ++p)
-    for (const Vec3& x : positions[p]) loose += body.distance(x) > offset + 0.01, ++all;
-  return all > 0 ? loose / all : 0;
+double loose_turn(const Pattern& pattern, const Positions& x, const DistanceField& body, double offset) {
+  struct Side {
+    std::uint32_t from, to;
+    Vec3 twice;  // the triangle's area, twice, along its normal
+  };
+  double sum = 0, area = 0;
+  for (std::size_t p = 0; p < pattern.meshes.size(); ++p) {
+    std::vector<Side> sides;
+    for (const Triangle& t : pattern.meshes[p].triangles) {
+      const Vec3& a = x[p][t[0]];
+      const Vec3 twice = (x[p][t[1]] - a).cross(x[p][t[2]] - a);
+      for (int e = 0; e < 3; ++e) {
+        const auto [from, to] = std::minmax(t[e], t[(e + 1) % 3]);
+        sides.push_back({from, to, twice});
+      }
+    }
+    // The two sides of an edge come next to each other; which is first makes no difference.
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+      const Side &a = sides[i], &b = sides[i + 1];
+      if (a.from != b.from || a.to != b.to) continue;
+      const double weight = a.twice.norm() + b.twice.norm();
+      area += weight;
+      if (body.distance((x[p][a.from] + x[p][a.to]) / 2) > offset + 0.01)
+        sum += weight *
+               (a.twice.normalized() - b.twice.normalized()).norm();  // as an angle; no library's arc decides the bytes
+    }
+  }
+  return area > 0 ? sum / area : 0;
 }
 
-double estimate_error(std::span<const LevelFigures> levels) {
-  const LevelFigures& last = levels.back();
-  // One level alone: sagging chords and missing folds grow with the edges, where the body does not hold the cloth.
-  if (levels.size() < 2) {
-    const double loose = last.loose_share;
-    return last.edge_mm * (tight_share + loose_more * loose + free_more * std::pow(loose, 12));
-  }
-  // The closer two levels are, the less of what is to come has one of them shown.
-  const double finer = levels[levels.size() - 2].edge_mm / last.edge_mm - 1;
-  const double share = levels.size() == 2 ? second_share : later_share;
-  return last.change_surface_mm * share / std::sqrt(std::max(finer, 0.05));
+double mean_gap(const Pattern& pattern, const Positions& x, const DistanceField& body, double offset) {
+  double sum = 0, area = 0;
+  for (std::size_t p = 0; p < pattern.meshes.size(); ++p)
+    for (const Triangle& t : pattern.meshes[p].triangles) {
+      const Vec3 &a = x[p][t[0]], &b = x[p][t[1]], &c = x[p][t[2]];
+      const double weight = (b - a).cross(c - a).norm();
+      area += weight;
+      sum += weight * std::max(0.0, body.distance((a + b + c) / 3) - offset);
+    }
+  return area > 0 ? sum / area : 0;
+}
+
+double estimate_error(const LevelFigures& level) {
+  const double far = level.gap_mm / far_mm;
+  return turn_mm * level.loose_turn * (1 + far * far);
 }
 
 }  // namespace vitrine::sewing

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <span>
-
 #include "cloth.hpp"
 #include "vitrine/model/body.hpp"
 #include "vitrine/sewing.hpp"
@@ -12,12 +10,16 @@ namespace vitrine::sewing {
 /// area of the cloth. Cloth that slides along itself has not moved.
 double surface_change(const Pattern& pattern, const Positions& before, const Positions& now);
 
-/// Share of the nodes that lie more than a centimetre above the skin offset.
-double loose_share(const Pattern& pattern, const Positions& positions, const DistanceField& body, double offset);
+/// How folded the cloth is for its mesh: the angle [rad] by which the surface turns at an edge, mean over the area of
+/// the cloth, where edges less than a centimetre above the skin offset count as flat: what the body holds is right on
+/// every mesh.
+double loose_turn(const Pattern& pattern, const Positions& x, const DistanceField& body, double offset);
 
-/// Mean closest distance [mm] of the last level's surface to what ever finer meshes would give: from how far it moved
-/// the surface of the level before, or, on the first level, from the edge length and how much of the cloth hangs free.
-/// Rest shapes under friction are not unique, so it is meant for one way of getting there, and is no bound.
-double estimate_error(std::span<const LevelFigures> levels);
+/// Distance [m] from the skin offset to the cloth, mean over its area.
+double mean_gap(const Pattern& pattern, const Positions& x, const DistanceField& body, double offset);
+
+/// Mean closest distance [mm] of a level's surface to what ever finer meshes would give, from `loose_turn` and
+/// `gap_mm`. Rest shapes under friction are not unique, so it is meant for one way of getting there, and is no bound.
+double estimate_error(const LevelFigures& level);
 
 }  // namespace vitrine::sewing

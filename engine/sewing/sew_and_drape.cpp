@@ -14,6 +14,7 @@
 #include "relax.hpp"
 #include "residual.hpp"
 #include "sew.hpp"
+#include "verdict.hpp"
 #include "vitrine/sewing.hpp"
 
 namespace vitrine {
@@ -24,10 +25,8 @@ using namespace sewing;
 constexpr double gap_bar = 0.001;  // [m] partners must be at least this close before they are welded
 constexpr double near_by = 0.03;   // [m] partners that start closer than this are sewn first
 constexpr int sewing_rounds = 4;
-constexpr double strain_bar = 0.8;  // [-] jersey and rib bear nearly double their width; beyond, cloth would tear
-constexpr double penetration_bar = 0.0005;  // [m]
-// A finer mesh is there to be made: estimates are up to 1.6 times too small for one item in ten.
-constexpr double safety = 1.3;
+// A finer mesh is there to be made: estimates are up to 1.5 times too small for one item in ten.
+constexpr double safety = 1.25;
 constexpr double close_to_rest = 1e-2;  // [-] residual from which on a garment is worth showing
 
 // Work is counted in node steps: one step of one node of cloth. What else a level costs, in the same unit.
@@ -35,12 +34,6 @@ constexpr double step_cost = 1, layers_cost = 1.5;
 constexpr double level_cost = 200;  // per node: springs, contact, lattices and welding
 constexpr double likely_steps = 1500,
                  finishing_steps = 300;  // of a level, and from the coarse residual to close_to_rest
-
-std::string text(const char* format, double a, double b = 0) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
 
 double mean_edge(const Pattern& p) {
   double sum = 0;
@@ -271,7 +264,8 @@ class Tailor {
     f.iterations = steps_;
     f.residual = now_.residual;
     f.work = out_.work - work_before_;
-    f.loose_share = loose_share(pattern(), now_.x, body_, o_.offset);
+    f.gap_mm = 1000 * mean_gap(pattern(), now_.x, body_, o_.offset);
+    f.loose_turn = loose_turn(pattern(), now_.x, body_, o_.offset);
     if (now_.level > 0) {
       double sum = 0, most = 0;
       std::size_t number = 0;
@@ -285,7 +279,7 @@ class Tailor {
       f.change_max_mm = 1000 * most;
       f.change_surface_mm = 1000 * surface_change(pattern(), now_.before, now_.x);
     }
-    f.error_estimate_mm = estimate_error(out_.levels);
+    f.error_estimate_mm = estimate_error(f);
     return true;
   }
 
@@ -338,59 +332,17 @@ class Tailor {
     out_.self_crossed = self.crossed;
     out_.self_crossed_mm_max = 1000 * self.depth;
     if (!fallen_) out_.error_estimate_mm = out_.levels.back().error_estimate_mm;
-    judge();
+    judge({fallen_, now_.closing.open, now_.closing.gap_open, o_.residual}, out_);
     SceneNotes notes;
     notes.bend = sheet_.bend;
     notes.friction = fabric_.friction;
-    notes.voxels_in_reach = share_in_reach();
+    notes.voxels_in_reach = share_in_reach(now_.x, body_);
     notes.between_nodes = static_cast<int>(now_.contact.samples.size()) - cloth.size;
     notes.cut_in = middles_;
     notes.crossed = crossed_before_;
     notes.left = self;
     list_effects(o_, notes, out_);
     return std::move(out_);
-  }
-
-  /// Share of the field's voxels in the garment's box.
-  double share_in_reach() const {
-    Vec3 lo = now_.x[0][0], hi = lo;
-    for (const auto& panel : now_.x)
-      for (const Vec3& p : panel) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
-    double share = 1;
-    for (int a = 0; a < 3; ++a) {
-      const double length = body_.spacing * (body_.size[a] - 1);
-      const double from = std::clamp(lo[a] - body_.origin[a], 0.0, length),
-                   to = std::clamp(hi[a] - body_.origin[a], 0.0, length);
-      share *= (to - from) / length;
-    }
-    return share;
-  }
-
-  /// The gravest finding names the status.
-  void judge() {
-    if (fallen_) {
-      out_.status = "NOT_SUPPORTED";
-      out_.detail = "Nothing holds the garment: it slid off the body and kept falling.";
-    } else if (now_.closing.open > 0) {
-      out_.status = "SEAM_OPEN";
-      out_.detail = text("%.0f sewn pairs did not meet; the widest gap is %.1f mm.", now_.closing.open,
-                         1000 * now_.closing.gap_open);
-    } else if (out_.penetration_mm_max > 1000 * penetration_bar) {
-      out_.status = "INSIDE_BODY";
-      out_.detail = text("The cloth lies up to %.1f mm inside the body.", out_.penetration_mm_max);
-    } else if (out_.stretch_p99 > strain_bar) {
-      out_.status = "OVERSTRETCHED";
-      out_.detail = text(
-          "One edge in a hundred is stretched by more than %.0f %%: the garment is too small for this body or its "
-          "fabric "
-          "too soft.",
-          100 * out_.stretch_p99);
-    } else if (!(out_.residual <= 1.05 * o_.residual)) {
-      out_.status = "NOT_CONVERGED";
-      out_.detail = text("The forces are balanced to r = %.2g of the weight, not to %.2g.", out_.residual, o_.residual);
-    } else {
-      out_.status = "OK";
-    }
   }
 
   Error broken() const {

@@ -31,7 +31,7 @@ struct SewingOptions {
   /// every node of the last level; 0 = the fabric's, spread by area. What cloth that is depends on the mesh; nothing is
   /// capped.
   double spring_k = 0, node_mass = 0;
-  /// [m] Stops at the first level whose error estimate, times 1.3, is within this, brought to `residual`; 0 = none.
+  /// [m] Stops at the first level whose error estimate, times 1.25, is within this, brought to `residual`; 0 = none.
   double max_error = 0;
   /// [node steps] Work after which no further level is begun, and the one in hand is left once it is close to rest
   /// (residual 1e-2), or given up for the one before; the first level is always brought that far. 0 = no limit.
@@ -51,7 +51,8 @@ struct LevelFigures {
   double change_mean_mm = 0, change_max_mm = 0;  ///< how far this level moved the one before
   double change_surface_mm = 0;                  ///< the part of it along the surface's normals, mean over the area
   double edge_mm = 0;                            ///< mean length of the mesh's edges
-  double loose_share = 0;                        ///< [-] of the nodes that lie more than a centimetre off the body
+  double loose_turn = 0;                         ///< [rad] by which free cloth turns at an edge, mean over all cloth
+  double gap_mm = 0;                             ///< from the skin offset to the cloth, mean over all cloth
   double error_estimate_mm = 0;                  ///< mean distance to what ever finer meshes would give
   double work = 0;                               ///< [node steps]
 };
