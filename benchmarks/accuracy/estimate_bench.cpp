@@ -75,7 +75,8 @@ int main(int argc, char** argv) {
     std::ofstream out;
     if (!csv.empty()) out.open(csv);
     const char* head =
-        "set,item,garment,fabric,level,nodes,edge_mm,steps,residual,change_mm,surface_change_mm,loose_share,estimate_"
+        "set,item,garment,fabric,level,nodes,edge_mm,steps,residual,change_mm,surface_change_mm,loose_turn,gap_mm,"
+        "estimate_"
         "mm,"
         "true_mm,true_p95_mm,true_max_mm,sewing_s,status\n";
     out << head;
@@ -97,6 +98,7 @@ int main(int argc, char** argv) {
         request.settings = settings_of(Quality::fine);
         request.settings->level_nodes.assign(nodes.begin(), nodes.begin() + static_cast<long>(l) + 1);
         request.settings->residual = l + 1 == nodes.size() ? last_residual : first_residual;
+        if (l + 1 == nodes.size()) request.settings->max_iterations = 20'000;  // as `vitrine measure` has it
         made.push_back(cut_and_sew(request));
         if (made.back().drape.levels.empty()) {
           std::fprintf(stderr, "%s: %s\n", item.name.c_str(), made.back().error->message.c_str());
@@ -111,9 +113,10 @@ int main(int argc, char** argv) {
         SurfaceDistance gap;
         if (l + 1 < made.size()) gap = surface_distance(garment_surface(made[l].pattern, made[l].drape), reference);
         char row[500];
-        std::snprintf(row, sizeof row, "%s,%s,%s,%s,%zu,%d,%.2f,%d,%.2e,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.2f,%.3f,%s\n",
-                      set.c_str(), item.name.c_str(), item.garment.c_str(), made[l].fabric.name.c_str(), l, f.nodes,
-                      f.edge_mm, f.iterations, d.residual, f.change_mean_mm, f.change_surface_mm, f.loose_share,
+        std::snprintf(row, sizeof row,
+                      "%s,%s,%s,%s,%zu,%d,%.2f,%d,%.2e,%.3f,%.3f,%.5f,%.2f,%.3f,%.3f,%.3f,%.2f,%.3f,%s\n", set.c_str(),
+                      item.name.c_str(), item.garment.c_str(), made[l].fabric.name.c_str(), l, f.nodes, f.edge_mm,
+                      f.iterations, d.residual, f.change_mean_mm, f.change_surface_mm, f.loose_turn, f.gap_mm,
                       d.error_estimate_mm.value_or(-1), gap.mean_mm, gap.p95_mm, gap.max_mm, sewing_seconds(made[l]),
                       d.status.c_str());
         out << row << std::flush;
