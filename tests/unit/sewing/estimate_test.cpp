@@ -62,6 +62,15 @@ TEST(Estimate, waves_that_the_body_holds_count_as_flat) {
             0);
 }
 
+TEST(Estimate, cloth_that_the_body_holds_everywhere_is_still_off_by_a_share_of_the_edges) {
+  LevelFigures held;
+  held.edge_mm = 20;
+  EXPECT_GT(estimate_error(held), 0.1);
+  LevelFigures finer = held;
+  finer.edge_mm = 10;
+  EXPECT_NEAR(estimate_error(finer) / estimate_error(held), 0.5, 1e-9);
+}
+
 TEST(Estimate, grows_with_the_turn_and_with_how_far_off_the_body_the_folds_are) {
   LevelFigures tight, folded, flared;
   tight.loose_turn = 0.01, tight.gap_mm = 5;
