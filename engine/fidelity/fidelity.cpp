@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "align.hpp"
 
@@ -77,6 +78,61 @@ std::vector<LandmarkMiss> find_misses(const GarmentTemplate& garment, const Pane
   return misses;
 }
 
+/// Two legs that meet in a crotch, seen from the front.
+struct Legs {
+  Vec2 crotch = Vec2::Zero();             ///< [m] on the front panel
+  double drop = 0;                        ///< [m] from there to the middles of the hems; 0: there are no legs
+  double apart_flat = 0, apart_worn = 0;  ///< [m] between those middles
+};
+
+Legs legs_of(const GarmentTemplate& garment, const Panel& panel, const std::vector<Vec3>& positions) {
+  Legs legs;
+  for (std::size_t i = 0; i < garment.limbs.size(); ++i)
+    for (std::size_t j = i + 1; j < garment.limbs.size(); ++j) {
+      const TemplateLimb &a = garment.limbs[i], &b = garment.limbs[j];
+      const bool shares_a = a.root_a == b.root_a || a.root_a == b.root_b;
+      if (!shares_a && a.root_b != b.root_a && a.root_b != b.root_b) continue;
+      const auto flat = [&](int feature) -> Vec2 { return panel.outline[panel.corner[feature]]; };
+      const auto hem = [&](const TemplateLimb& limb) -> Vec2 { return (flat(limb.tip_a) + flat(limb.tip_b)) / 2; };
+      const auto worn = [&](const TemplateLimb& limb) {
+        return (positions[panel.corner[limb.tip_a]].x() + positions[panel.corner[limb.tip_b]].x()) / 2;
+      };
+      legs.crotch = flat(shares_a ? a.root_a : a.root_b);
+      legs.drop = std::max(0.0, legs.crotch.y() - (hem(a) + hem(b)).y() / 2);
+      legs.apart_flat = std::abs(hem(a).x() - hem(b).x());
+      legs.apart_worn = std::abs(worn(a) - worn(b));
+      return legs;
+    }
+  return legs;
+}
+
+/// From the fit of `iou` on: legs as far apart as the worn ones, then the camera turned by 2 degrees and ever less, as
+/// long as the silhouettes overlap more.
+void pose_photo(const Mask& photo, const Mask& worn, const Legs& legs, Fidelity& out) {
+  constexpr double degree = std::numbers::pi / 180, most = 6 * degree, widest_swing = 0.5;
+  Mask posed = photo;
+  FlatToWorn fit = out.fit;
+  out.iou_posed = out.iou;
+  // How far apart the worn hems are on the photo depends on the width's scale, and that on where the legs are.
+  for (int round = 0; round < 3 && legs.drop > 0.01; ++round) {
+    out.leg_swing =
+        std::clamp((legs.apart_worn / fit.width - legs.apart_flat) / 2 / legs.drop, -widest_swing, widest_swing);
+    posed = fidelity::legs_swung(photo, legs.crotch, out.leg_swing);
+    fit = fidelity::Overlay(posed, worn).align(fit, Freedom::two_scales, out.iou_posed);
+  }
+  for (double step = 2 * degree; step > 0.2 * degree; step /= 2)
+    for (const double sign : {1.0, -1.0})
+      for (double angle = out.camera_turn + sign * step; std::abs(angle) <= most; angle += sign * step) {
+        double found = 0;
+        const FlatToWorn tried =
+            fidelity::Overlay(fidelity::turned(posed, angle), worn).align(fit, Freedom::two_scales, found);
+        if (found <= out.iou_posed) break;
+        out.iou_posed = found;
+        out.camera_turn = angle;
+        fit = tried;
+      }
+}
+
 /// Both silhouettes of a fit as pictures of one frame.
 void draw_masks(const Mask& photo, const Mask& worn, Fidelity& out) {
   const FlatToWorn& fit = out.fit;
@@ -133,6 +189,7 @@ Result<Fidelity> compare_with_photo(const Image& labels, const GarmentTemplate& 
     out.iou = from_box;
     out.fit = boxed;
   }
+  pose_photo(photo, worn, legs_of(garment, front, positions.front()), out);
   out.landmarks = find_misses(garment, front, sleeves, positions.front(), out.fit);
   for (const LandmarkMiss& miss : out.landmarks) {
     out.landmark_mean_mm += miss.miss_mm / static_cast<double>(out.landmarks.size());

@@ -111,6 +111,35 @@ std::size_t Mask::count() const {
   return static_cast<std::size_t>(std::count(on.begin(), on.end(), std::uint8_t{1}));
 }
 
+Mask turned(const Mask& mask, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Vec2 half = mask.pixel / 2 * Vec2(mask.width, mask.height);
+  const Vec2 middle = mask.top_left + Vec2(half.x(), -half.y());
+  const Vec2 reach(std::abs(c) * half.x() + std::abs(s) * half.y(), std::abs(s) * half.x() + std::abs(c) * half.y());
+  Mask out(middle - reach, middle + reach, mask.pixel);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      const Vec2 d = out.centre(x, y) - middle;
+      out.on[static_cast<std::size_t>(y) * out.width + x] =
+          mask.at(middle + Vec2(c * d.x() + s * d.y(), c * d.y() - s * d.x()));
+    }
+  return out;
+}
+
+Mask legs_swung(const Mask& mask, const Vec2& crotch, double slope) {
+  const Vec2 low = mask.top_left + mask.pixel * Vec2(0, -mask.height), high(low.x() + mask.pixel * mask.width, 0);
+  const double reach = std::abs(slope) * std::max(0.0, crotch.y() - low.y());
+  Mask out({low.x() - reach, low.y()}, {high.x() + reach, mask.top_left.y()}, mask.pixel);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      const Vec2 p = out.centre(x, y), by(slope * std::max(0.0, crotch.y() - p.y()), 0);
+      const bool left = p.x() + by.x() < crotch.x() && mask.at(p + by);
+      const bool right = p.x() - by.x() >= crotch.x() && mask.at(p - by);
+      out.on[static_cast<std::size_t>(y) * out.width + x] = left || right;
+    }
+  return out;
+}
+
 std::vector<Sleeve> sleeves_of(const GarmentTemplate& garment, const Panel& panel) {
   std::vector<Sleeve> sleeves;
   const int n = static_cast<int>(panel.outline.size());

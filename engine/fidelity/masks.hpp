@@ -25,6 +25,13 @@ struct Mask {
   std::size_t count() const;
 };
 
+/// The silhouette turned counter-clockwise about the middle of its box by `angle` [rad].
+Mask turned(const Mask& mask, double angle);
+
+/// The silhouette with what lies below `crotch` and to its left swung to the left by `slope` [m per m of depth], and
+/// the same to the right: legs wider apart, or closer together where it is below 0.
+Mask legs_swung(const Mask& mask, const Vec2& crotch, double slope);
+
 /// A sleeve of one panel: the outline from one end of its root line around the tip to the other.
 struct Sleeve {
   std::string name;

@@ -142,20 +142,23 @@ def fidelity(data, plots):
 
 The garment is seen from the front, as the camera saw it on the table, and its silhouette laid over the photo's. The share of their
 common area in the area that either covers (IoU) is 1 where they are the same. Sleeves are left out, as arms and boards hold them
-differently; legs are compared as they lie. Cloth that goes around a body shows less of its width than cloth on a table, so width and
-height are scaled apart, one figure each for the whole garment: the width seen is {mean(numbers(rows, "width")):.2f} of the flat one on the mean, the
-height {mean(numbers(rows, "height")):.2f}. Nothing else is fitted. With one scale for both the mean is {mean(numbers(rows, "iou_uniform")):.3f}, at the photo's own size
-{mean(numbers(rows, "iou_true_size")):.3f}: so much is the going round. *by hand* takes the silhouette that a person marked in place of the one the program
+differently. Cloth that goes around a body shows less of its width than cloth on a table, so width and height are scaled apart, one
+figure each for the whole garment: the width seen is {mean(numbers(rows, "width")):.2f} of the flat one on the mean, the height {mean(numbers(rows, "height")):.2f}. And the photo is posed as the
+mannequin: the camera is turned by up to six degrees, as many garments lie or hang a little askew (*turned*), and legs are swung until their
+hems are as far apart as the worn ones. Nothing else is fitted. Without that pose the mean is {mean(numbers(rows, "iou")):.3f} (*as it lies*), with one scale for both
+{mean(numbers(rows, "iou_uniform")):.3f}, at the photo's own size {mean(numbers(rows, "iou_true_size")):.3f}: so much is the going round. *by hand* takes the silhouette that a person marked in place of the one the program
 found. *points* is how far shoulders, armpits, waist, hem and neckline lie from where the fitted photo has them.
 
 What remains is mostly that one figure for the width cannot be right for the whole of a garment: straps and shoulders lie open and
 show their full width, while everything below the armpits goes round.
 
 """
-    text += table(("item", "garment", "status", "IoU", "by hand", "one scale", "true size", "points mm"),
-                  [(r["item"], r["garment"], r["status"]) + tuple(figure(number(r[c]), "{:.3f}") for c in
-                   ("iou", "iou_marked", "iou_uniform", "iou_true_size")) + (figure(number(r["landmark_mean_mm"]), "{:.0f}"),)
-                   for r in rows])
+    text += table(("item", "garment", "status", "IoU", "by hand", "turned", "as it lies", "one scale", "true size", "points mm"),
+                  [(r["item"], r["garment"], r["status"])
+                   + tuple(figure(number(r[c]), "{:.3f}") for c in ("iou_posed", "iou_marked"))
+                   + (figure(number(r["turn_deg"]), "{:.1f}°"),)
+                   + tuple(figure(number(r[c]), "{:.3f}") for c in ("iou", "iou_uniform", "iou_true_size"))
+                   + (figure(number(r["landmark_mean_mm"]), "{:.0f}"),) for r in rows])
     if refused:
         text += f"\nRefused before they were dressed, and in no mean: {', '.join(refused)}.\n"
     if "accuracy-fidelity.svg" in plots:

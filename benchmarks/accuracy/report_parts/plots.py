@@ -63,14 +63,14 @@ def trade(data):
 
 
 def fidelity(data):
-    rows = [r for r in data["fidelity"] or [] if tables.number(r["iou"]) is not None]
+    rows = [r for r in data["fidelity"] or [] if tables.number(r["iou_posed"]) is not None]
     if not rows:
         return None
-    rows.sort(key=lambda r: (tables.number(r["iou"]), r["item"]))
+    rows.sort(key=lambda r: (tables.number(r["iou_posed"]), r["item"]))
     step, left, right = 19, 130, 740
     bottom = 40 + step * len(rows)
     at = lambda v: left + (v - 0.5) / 0.5 * (right - left)  # noqa: E731
-    body = [text(left, 16, "● width and height fitted", extra=' fill="#3366bb"'),
+    body = [text(left, 16, "● posed, width and height fitted", extra=' fill="#3366bb"'),
             text(left + 190, 16, "● one scale", extra=' fill="#e07b20"'),
             text(left + 290, 16, "● true size", extra=' fill="#999"')]
     for v in (0.5, 0.6, 0.7, 0.8, 0.9, 1.0):
@@ -79,7 +79,7 @@ def fidelity(data):
     for k, row in enumerate(rows):
         y = 40 + step * k
         body.append(text(left - 10, y + 4, row["item"], "end"))
-        for column, colour in (("iou_true_size", "#999"), ("iou_uniform", "#e07b20"), ("iou", "#3366bb")):
+        for column, colour in (("iou_true_size", "#999"), ("iou_uniform", "#e07b20"), ("iou_posed", "#3366bb")):
             value = tables.number(row[column])
             if value is not None:
                 body.append(f'<circle cx="{at(max(0.5, value)):.1f}" cy="{y}" r="4.5" fill="{colour}">'

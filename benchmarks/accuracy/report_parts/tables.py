@@ -13,7 +13,7 @@ COLUMNS = {
     "effects": ("item", "effect", "reason", "change_mean_mm", "change_max_mm", "extra_ms"),
     "budget": ("item", "asked_mm", "estimated_mm", "true_mm", "cpu_ms", "fine_cpu_ms", "met"),
     "extremes": ("group", "case", "status_or_code", "residual", "penetration_mm", "finite", "cpu_ms", "note"),
-    "fidelity": ("item", "garment", "status", "iou", "iou_marked", "iou_uniform", "iou_true_size", "width", "height",
+    "fidelity": ("item", "garment", "status", "iou_posed", "turn_deg", "leg_swing", "iou", "iou_marked", "iou_uniform", "iou_true_size", "width", "height",
                  "landmark_mean_mm"),
 }
 MACHINE = ("date", "processor", "cores", "memory_gb", "compiler", "build", "version")
@@ -158,7 +158,7 @@ def effect_bars(data):
 
 
 def fidelity_bar(data):
-    values = numbers(data["fidelity"] or [], "iou")
+    values = numbers(data["fidelity"] or [], "iou_posed")
     if not values:
         return []
     return [bar("real items: silhouette of the dressed garment over the photo's", "IoU ≥ 0.90 mean",

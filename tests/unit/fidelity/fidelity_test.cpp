@@ -118,11 +118,30 @@ TEST(Fidelity, cloth_around_a_body_shows_less_width_which_one_scale_cannot_take_
   EXPECT_LT(f.iou_true_size, f.iou_uniform);
 }
 
+TEST(Fidelity, a_camera_held_askew_is_told_from_a_garment_that_hangs_askew_by_six_degrees_at_most) {
+  const auto worn_at = [](double degrees) {
+    Scene scene = flared();
+    const double c = std::cos(degrees * M_PI / 180), s = std::sin(degrees * M_PI / 180);
+    move(scene, [&](const Vec3& p) { return Vec3(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()); });
+    return compare(scene);
+  };
+  for (const double degrees : {-4.0, 3.0}) {
+    const Fidelity f = worn_at(degrees);
+    EXPECT_GT(f.iou_posed, 0.98) << degrees;
+    EXPECT_LT(f.iou, 0.97) << degrees;
+    EXPECT_NEAR(f.camera_turn * 180 / M_PI, degrees, 0.5);
+  }
+  const Fidelity f = worn_at(20);
+  EXPECT_LT(f.iou_posed, 0.93);
+  EXPECT_LE(std::abs(f.camera_turn) * 180 / M_PI, 6.001);
+}
+
 TEST(Fidelity, another_shape_is_seen_whatever_is_fitted) {
   Scene scene = flared();
   move(scene, [](const Vec3& p) { return Vec3(p.x() * (p.y() < 0 ? 0.5 : 1.0), p.y(), p.z()); });  // a flare lost
   const Fidelity f = compare(scene);
   EXPECT_LT(f.iou, 0.85);
+  EXPECT_LT(f.iou_posed, 0.85);
   EXPECT_GT(f.landmark_max_mm, 30);
 }
 
@@ -142,6 +161,25 @@ TEST(Fidelity, limbs_that_share_a_root_are_the_garment_and_stay) {
   Scene scene = with_sleeves();
   scene.garment.limbs[1].root_b = scene.garment.limbs[0].root_b;
   EXPECT_THAT(compare(scene).left_out, IsEmpty());
+}
+
+TEST(Fidelity, legs_are_posed_as_the_mannequin_stands_and_no_more) {
+  // Two straight legs below a waist that is cut at the sides of the crotch.
+  Scene scene =
+      lay_flat({{-0.30, -0.40}, {-0.10, -0.40}, {0, 0.05}, {0.10, -0.40}, {0.30, -0.40}, {0.20, 0.40}, {-0.20, 0.40}},
+               {{0, 1, 2}, {0, 2, 6}, {6, 2, 5}, {2, 4, 5}, {2, 3, 4}});
+  scene.garment.limbs = {{"leg_left", 6, 2, 0, 1, {}}, {"leg_right", 5, 2, 4, 3, {}}};
+  const auto closer = [](const Vec3& p) {
+    const double by = 0.15 * std::max(0.0, 0.05 - p.y());
+    return Vec3(p.x() - std::copysign(by, p.x()), p.y(), p.z());
+  };
+  move(scene, closer);
+  const Fidelity f = compare(scene);
+  EXPECT_LT(f.iou, 0.93);
+  EXPECT_GT(f.iou_posed, 0.96);
+  EXPECT_NEAR(f.leg_swing, -0.15, 0.03);
+  move(scene, [](const Vec3& p) { return Vec3(p.x(), p.x() > 0 && p.y() < 0 ? p.y() + 0.2 : p.y(), p.z()); });
+  EXPECT_LT(compare(scene).iou_posed, 0.93) << "one leg is shorter";
 }
 
 TEST(Fidelity, says_by_how_much_a_single_point_is_off) {

@@ -33,7 +33,11 @@ struct LandmarkMiss {
 
 /// How much a dressed garment looks like its photo.
 struct Fidelity {
-  double iou = 0;            ///< [-] width and height fitted apart: the figure that is held to a bar
+  double iou = 0;          ///< [-] width and height fitted apart, the camera level
+  double iou_posed = 0;    ///< [-] the same with the photo posed as the mannequin: the figure that is held to a bar
+  double camera_turn = 0;  ///< [rad] of `iou_posed`, within 6 degrees either way
+  double leg_swing =
+      0;  ///< [-] of `iou_posed`: by how much a metre of leg is moved outwards, on the photo, at most 0.5
   double iou_uniform = 0;    ///< [-] one scale fitted
   double iou_true_size = 0;  ///< [-] the panel's own metres, nothing but shifted
   FlatToWorn fit;            ///< of `iou`
@@ -53,15 +57,18 @@ struct Fidelity {
 ///
 /// What is compared. Sleeves lie on a board at angles of their own; they are cut off at their root line, in the photo
 /// through the front panel, on the mannequin through each panel's cloth. Limbs that share a root (the legs of trousers
-/// meet in the crotch) are what the garment consists of, and are compared as they lie.
+/// meet in the crotch) are what the garment consists of, and stay.
 ///
 /// How it is laid over. A photo has no metres of its own, and cloth that goes around a body shows less of its width
 /// than cloth on a board: 2/pi of it around a round body, some 0.7 to 0.85 around a trunk, while its length is seen in
 /// full. Both are one figure for the whole garment, so `iou` fits one scale for the width and one for the height
-/// besides the shift. Nothing else is fitted: no turning, no bending, no scale that changes with height. Everything by
-/// which a customer tells shapes apart still counts: slope and width of the shoulders, neckline, waist, flare, hem
-/// line, length against width of each part. `iou_uniform` and `iou_true_size` say what the two fits are worth: they
-/// fall where the photo's width had to go round the body.
+/// besides the shift. `iou_posed` poses the photo as the mannequin, too: many garments lie or hang a little askew, so
+/// the camera is turned; and legs lie as far apart as the photographer liked, so they are swung until their hems are as
+/// far apart as the worn ones (sideways by a share of the depth below the crotch, so that no length changes). Nothing
+/// else is fitted: no bending, no scale that changes with height. Everything by which a customer tells shapes apart
+/// still counts: slope and width of the shoulders, neckline, waist, flare, hem line, length against width of each part.
+/// `iou_uniform` and `iou_true_size` say what the two fits are worth: they fall where the photo's width had to go round
+/// the body.
 ///
 /// `labels`: the front photo's three labels in the front frame, as the panel's pixel_from_panel has it; the inside of
 /// the back belongs to the silhouette in both. `pattern`, `positions`: the level that was draped, per panel and node
