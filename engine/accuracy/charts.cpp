@@ -81,14 +81,24 @@ Drawing pareto_chart(const std::vector<RunRow>& runs, const std::vector<SettingM
   const auto best = pareto_front(cost, error);
   for (const std::size_t i : best) front.emplace_back(x(cost[i]), y(error[i]));
   d.line(front, front_colour, 1.5);
+  std::vector<Vec2> named_at;  // where names begin
   for (std::size_t i = 0; i < who.size(); ++i) {
     const bool quality = who[i]->knob.empty();
     const Vec2 at(x(cost[i]), y(error[i]));
     d.dot(at, quality ? 5 : 3.2, quality ? named : setting_colour);
-    if (quality)
+    if (quality) {
       d.words(at + Vec2(8, -7), who[i]->setting, named, Anchor::start, 13);
-    else if (std::find(best.begin(), best.end(), i) != best.end())
-      d.words(at + Vec2(6, 13), who[i]->setting, setting_colour, Anchor::start, 10);
+    } else if (std::find(best.begin(), best.end(), i) != best.end()) {
+      // Settings beside each other are named below each other.
+      Vec2 place = at + Vec2(6, 15);
+      const auto taken = [&](const Vec2& p) {
+        return std::abs(p.x() - place.x()) < 150 && std::abs(p.y() - place.y()) < 12;
+      };
+      while (std::any_of(named_at.begin(), named_at.end(), taken)) place.y() += 12;
+      named_at.push_back(place);
+      d.line({at, place + Vec2(-2, -4)}, setting_colour, 0.5);
+      d.words(place, who[i]->setting, setting_colour, Anchor::start, 10);
+    }
   }
   return d;
 }

@@ -103,8 +103,8 @@ def error_bars(data):
     for quality, limit in (("standard", 4), ("draft", 10)):
         values = list(errors[quality].values())
         if values:
-            bars.append(bar(f"{quality}: mean error", f"≤ {limit} mm", f"{mean(values):.2f} mm, worst item "
-                            f"{max(values):.2f} mm", mean(values) <= limit))
+            bars.append(bar(f"{quality}: mean error", f"≤ {limit} mm", f"{mean(values):.2f} mm; half of the items "
+                            f"below {statistics.median(values):.2f}, worst {max(values):.2f} mm", mean(values) <= limit))
     known = [i for i in errors["fine"] if i in spread]
     if known:
         within = [i for i in known if errors["fine"][i] <= spread[i]]
