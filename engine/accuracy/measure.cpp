@@ -47,7 +47,7 @@ struct Switch {
 constexpr Switch switches[] = {
     {"contact between nodes", [](Settings& s) { s.contact_between_nodes = true; }},
     {"contact of front and back", [](Settings& s) { s.front_back = FrontBack::always; }},
-    {"stiffness above", [](Settings& s) { s.max_weight_strain = 0; }},
+    {"stiffness above", [](Settings& s) { s.uncapped_at_rest = true; }},
 };
 
 /// One item, from its first run to its last row.

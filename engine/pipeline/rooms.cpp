@@ -183,6 +183,7 @@ Rooms::Step Rooms::sew() {
   options.friction = settings_.friction;
   options.front_back = settings_.front_back;
   options.contact_between_nodes = settings_.contact_between_nodes;
+  options.uncapped_at_rest = settings_.uncapped_at_rest;
   options.spring_k = request_.spring_k;
   options.node_mass = request_.node_mass;
   if (request_.progress)

@@ -55,8 +55,8 @@ void list_effects(const SewingOptions& options, const SceneNotes& notes, Drape& 
   else
     skipped.push_back(options.friction ? "friction: the fabric's coefficient is 0" : "friction: switched off");
   if (out.stiffness_cap > 0)
-    skipped.push_back(
-        text("stiffness above %.4g N/m: the shape would move by less than a millimetre", out.stiffness_cap));
+    skipped.push_back(text("stiffness above %.4g N/m: the cloth's own weight already stretches it by less than %.2g %%",
+                           out.stiffness_cap, 100 * options.max_weight_strain));
   if (options.contact_between_nodes)
     modelled.push_back("contact of all edges and triangles between their nodes, as asked");
   else if (notes.cut_in)

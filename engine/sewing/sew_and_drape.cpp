@@ -82,7 +82,7 @@ class Tailor {
       : levels_(levels), fabric_(fabric), body_(body), o_(options), column_(column) {
     sheet_ = {fabric.stretch, fabric.shear, fabric.bend};
     if (column_ > 0 && o_.max_weight_strain > 0 && !(o_.spring_k > 0)) {
-      // Beyond this stiffness the shape no longer moves by a millimetre, but the work grows with sqrt(k).
+      // Beyond this stiffness the cloth hardly stretches under its weight, but the work grows with sqrt(k).
       const double cap = column_ / o_.max_weight_strain;
       if (sheet_.stretch > cap || sheet_.shear > cap) out_.stiffness_cap = cap;
       sheet_.stretch = std::min(sheet_.stretch, cap);
@@ -191,15 +191,20 @@ class Tailor {
     return std::nullopt;
   }
 
-  /// The cloth of this level to its residual: the final one on the last level, else the coarse one.
-  bool drape() {
+  /// Makes the level's cloth of where its nodes are, and its contact.
+  void take_cloth() {
     int count = 0;
     now_.nodes = number_nodes(pattern(), now_.weld, count);
     now_.cloth = cloth_of(now_.nodes, count);
     now_.cloth.seams = springs_for(pattern(), now_.nodes, now_.weld, now_.closing.k, now_.closing.cap);
-    now_.before = scatter(now_.cloth, now_.nodes);
+    if (!now_.finished) now_.before = scatter(now_.cloth, now_.nodes);
     push_out(now_.cloth, body_, o_.offset);
     now_.contact = contact_for(now_.cloth, mean_edge(pattern()));
+  }
+
+  /// The cloth of this level to its residual: the final one on the last level, else the coarse one.
+  bool drape() {
+    take_cloth();
     if (last()) return relax_to(o_.residual) && (given_up() || finish());
     return relax_to(std::max(o_.residual, o_.coarse_residual)) && record();
   }
@@ -210,6 +215,12 @@ class Tailor {
     if (now_.finished || fallen_) return record();
     now_.finished = true;
     if (!last() && now_.residual > o_.residual && !relax_to(o_.residual)) return false;
+    if (!fallen_ && o_.uncapped_at_rest && out_.stiffness_cap > 0) {
+      sheet_ = {fabric_.stretch, fabric_.shear, fabric_.bend};
+      k_ = std::max(sheet_.stretch, sheet_.shear);
+      take_cloth();
+      if (!relax_to(o_.residual)) return false;
+    }
     if (!fallen_ && (o_.contact_between_nodes || measure_penetration(pattern(), now_.x, body_) > penetration_bar)) {
       // Tight cloth is stretched, and its long edges cut through limbs that its nodes clear.
       middles_ = true;

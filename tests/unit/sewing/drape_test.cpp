@@ -188,6 +188,27 @@ TEST(Drape, the_error_estimate_falls_from_level_to_level_and_covers_half_of_what
   EXPECT_LT(*fine.error_estimate_mm, *standard.error_estimate_mm);
 }
 
+TEST(Drape, stiffness_that_the_cap_took_off_is_given_back_at_rest_when_asked) {
+  Fabric stiff = scene::cotton();
+  stiff.stretch *= 100;
+  stiff.shear *= 100;
+  SewingOptions o;
+  const Drape capped = dress(scene::vest(), {0.05}, o, stiff);
+  o.uncapped_at_rest = true;
+  const Drape given = dress(scene::vest(), {0.05}, o, stiff);
+  ASSERT_GT(capped.stiffness_cap, 0);
+  EXPECT_EQ(given.status, "OK") << given.detail;
+  EXPECT_LT(given.stretch_p99, capped.stretch_p99);
+  double moved = 0, most = 0;
+  for (std::size_t p = 0; p < 2; ++p)
+    for (std::size_t i = 0; i < given.positions[p].size(); ++i) {
+      moved += (given.positions[p][i] - capped.positions[p][i]).norm();
+      most += 1;
+    }
+  EXPECT_GT(moved / most, 1e-6);
+  EXPECT_LT(moved / most, 0.02) << "it started over";
+}
+
 TEST(Drape, progress_reports_level_iteration_and_residual) {
   SewingOptions o;
   o.residual = 1e-2;

@@ -34,6 +34,7 @@ struct Settings {
   bool bending = true, friction = true;
   FrontBack front_back = FrontBack::where_crossed;
   bool contact_between_nodes = false;
+  bool uncapped_at_rest = false;
   int photo_side = PhotoOptions{}.max_side;  ///< [px] larger photos are reduced to this
 };
 Settings settings_of(Quality quality);

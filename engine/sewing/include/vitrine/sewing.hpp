@@ -41,6 +41,8 @@ struct SewingOptions {
   FrontBack front_back = FrontBack::where_crossed;
   /// The cloth at rest is relaxed again with contact at all edges and triangles, even where they do not cut in.
   bool contact_between_nodes = false;
+  /// The cloth at rest is relaxed again with the stiffness that `max_weight_strain` took off.
+  bool uncapped_at_rest = false;
   /// Called now and then with level, iteration and residual; may be empty.
   std::function<void(int, int, double)> progress;
 };
