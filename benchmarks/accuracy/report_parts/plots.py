@@ -71,8 +71,8 @@ def fidelity(data):
     bottom = 40 + step * len(rows)
     at = lambda v: left + (v - 0.5) / 0.5 * (right - left)  # noqa: E731
     body = [text(left, 16, "● posed, width and height fitted", extra=' fill="#3366bb"'),
-            text(left + 190, 16, "● one scale", extra=' fill="#e07b20"'),
-            text(left + 290, 16, "● true size", extra=' fill="#999"')]
+            text(left + 230, 16, "● one scale", extra=' fill="#e07b20"'),
+            text(left + 330, 16, "● true size", extra=' fill="#999"')]
     for v in (0.5, 0.6, 0.7, 0.8, 0.9, 1.0):
         body += [line(at(v), 26, at(v), bottom, "#000" if v == 0.9 else "#ccc", "4 3" if v == 0.9 else ""),
                  text(at(v), bottom + 16, f"{v:.1f}", "middle")]
