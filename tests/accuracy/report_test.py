@@ -11,8 +11,8 @@ import unittest
 REPORT = pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "accuracy" / "report"
 RUNS = ("item,source,garment,setting,knob,value,nodes,residual,status,cpu_ms,sewing_ms,peak_mb,mean_mm,p95_mm,max_mm,"
         "hem_mm,waist_mm,chest_mm,iou,landmark_mm,seam_gap_mm,penetration_mm,estimate_mm,spread_mm")
-FIDELITY = ("item,garment,status,iou,iou_marked,iou_uniform,iou_true_size,width,height,uniform_scale,landmark_mean_mm,"
-            "landmark_max_mm,worst_landmark")
+FIDELITY = ("item,garment,status,iou_posed,turn_deg,leg_swing,iou,iou_marked,iou_uniform,iou_true_size,width,height,"
+            "uniform_scale,landmark_mean_mm,landmark_max_mm,worst_landmark")
 EXTREMES = "group,case,status_or_code,residual,gap_mm,penetration_mm,stretch_p99,finite,cpu_ms,note"
 
 
@@ -61,9 +61,12 @@ class Report(unittest.TestCase):
         self.assertIn("**missed**", self.row("--max-error 3 |"))
 
     def test_refused_photos_are_named_and_in_no_mean(self):
-        self.keep("fidelity.csv", FIDELITY, "a,vest,OK,0.95,0.95,0.8,0.7,0.7,1,0.8,9,9,hem", "b,dress,NO_OUTLINE,,,,,,,,,,")
+        self.keep("fidelity.csv", FIDELITY, "a,vest,OK,0.95,2,0,0.93,0.94,0.8,0.7,0.7,1,0.8,9,9,hem",
+                  "b,dress,NO_OUTLINE,,,,,,,,,,,,,")
         self.assertIn("0.950 over 1 items", self.row("real items"))
-        self.assertIn("b (NO_OUTLINE)", (self.out / "ACCURACY.md").read_text(encoding="utf-8"))
+        page = (self.out / "ACCURACY.md").read_text(encoding="utf-8")
+        self.assertIn("Without that pose the mean is 0.930", page)
+        self.assertIn("b (NO_OUTLINE)", page)
 
     def test_a_crash_or_a_position_that_is_no_number_is_a_bug(self):
         for case in ("photo,x,CRASH,,,,,1,9,", "photo,x,OK,1e-3,0,0,0,0,9,", "photo,x,OK,1e-3,0,0.7,0,1,9,"):
