@@ -76,9 +76,7 @@ int main(int argc, char** argv) {
     if (!csv.empty()) out.open(csv);
     const char* head =
         "set,item,garment,fabric,level,nodes,edge_mm,steps,residual,change_mm,surface_change_mm,loose_turn,gap_mm,"
-        "estimate_"
-        "mm,"
-        "true_mm,true_p95_mm,true_max_mm,sewing_s,status\n";
+        "estimate_mm,true_mm,true_p95_mm,true_max_mm,sewing_s,status\n";
     out << head;
     std::fputs(head, stdout);
     for (const Item& item : items) {
@@ -98,7 +96,7 @@ int main(int argc, char** argv) {
         request.settings = settings_of(Quality::fine);
         request.settings->level_nodes.assign(nodes.begin(), nodes.begin() + static_cast<long>(l) + 1);
         request.settings->residual = l + 1 == nodes.size() ? last_residual : first_residual;
-        if (l + 1 == nodes.size()) request.settings->max_iterations = 20'000;  // as `vitrine measure` has it
+        if (l + 1 == nodes.size()) request.settings->max_iterations = MeasureOptions{}.reference_iterations;
         made.push_back(cut_and_sew(request));
         if (made.back().drape.levels.empty()) {
           std::fprintf(stderr, "%s: %s\n", item.name.c_str(), made.back().error->message.c_str());

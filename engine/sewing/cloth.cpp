@@ -145,6 +145,15 @@ void weigh(Cloth& c) {
 
 }  // namespace
 
+double mean_edge(const Pattern& p) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const PanelMesh& m : p.meshes)
+    for (const Triangle& t : m.triangles)
+      for (int e = 0; e < 3; ++e, ++count) sum += (m.nodes[t[e]] - m.nodes[t[(e + 1) % 3]]).norm();
+  return std::max(sum / static_cast<double>(count), 1e-4);
+}
+
 Nodes number_nodes(const Pattern& pattern, std::span<const char> weld, int& count) {
   std::vector<int> base(1, 0);
   for (const auto& m : pattern.meshes) base.push_back(base.back() + static_cast<int>(m.nodes.size()));

@@ -50,6 +50,9 @@ struct Cloth {
   Vec3 at(int i) const { return {x[3 * i], x[3 * i + 1], x[3 * i + 2]}; }
 };
 
+/// Mean length [m] of the edges of both panels' triangles at rest, at least 0.1 mm.
+double mean_edge(const Pattern& pattern);
+
 /// Which mesh nodes are one node: union-find over the pairs, so a corner that belongs to several seams welds once.
 /// `weld[p]` tells whether pairs[p] is sewn. Node numbers follow the mesh from neighbour to neighbour, which keeps the
 /// springs of a node close together in memory.

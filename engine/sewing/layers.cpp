@@ -64,13 +64,6 @@ class Grid {
   std::vector<Cell> cells_;
 };
 
-double mean_edge(const PanelMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    for (int e = 0; e < 3; ++e) sum += (mesh.nodes[t[e]] - mesh.nodes[t[(e + 1) % 3]]).norm();
-  return sum / (3.0 * static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1)));
-}
-
 /// Nodes of the cloth that are sewn, or within `by_seam` and at least two edges of one that is.
 std::vector<char> near_seams(const Pattern& pattern, const Nodes& nodes) {
   std::uint32_t count = 0;
@@ -80,8 +73,7 @@ std::vector<char> near_seams(const Pattern& pattern, const Nodes& nodes) {
   for (const auto n : nodes[0]) in_front[n] = 1;
   for (const auto n : nodes[1])
     if (in_front[n]) near_seam[n] = 1;
-  const double edge = std::max({mean_edge(pattern.meshes[0]), mean_edge(pattern.meshes[1]), 1e-4});
-  const int rings = std::max(2, static_cast<int>(std::ceil(by_seam / edge)));
+  const int rings = std::max(2, static_cast<int>(std::ceil(by_seam / mean_edge(pattern))));
   for (int ring = 0; ring < rings; ++ring) {
     const std::vector<char> before = near_seam;
     for (std::size_t p = 0; p < 2; ++p)

@@ -17,7 +17,7 @@ struct LayerPair {
 
 /// Every node of front and back with the nearest triangle of the other panel less than `reach` [m] away, in the order
 /// of the nodes. Only walls that face away from each other count: a pleat that laps over a seam is in order. Nodes
-/// within two edges of a sewn one are left out: next to a seam the panels always touch.
+/// within 4 cm of a sewn one, and at least two edges, are left out: next to a seam the panels always touch.
 std::vector<LayerPair> find_layers(const Pattern& pattern, const Nodes& nodes, const Positions& positions,
                                    double reach);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "audit.hpp"
@@ -34,15 +33,6 @@ constexpr double step_cost = 1, layers_cost = 1.5;
 constexpr double level_cost = 200;  // per node: springs, contact, lattices and welding
 constexpr double likely_steps = 1500,
                  finishing_steps = 300;  // of a level, and from the coarse residual to close_to_rest
-
-double mean_edge(const Pattern& p) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (const PanelMesh& m : p.meshes)
-    for (const Triangle& t : m.triangles)
-      for (int e = 0; e < 3; ++e, ++count) sum += (m.nodes[t[e]] - m.nodes[t[(e + 1) % 3]]).norm();
-  return std::max(sum / static_cast<double>(count), 1e-4);
-}
 
 Vec3 middle(const Cloth& c) {
   Vec3 sum = Vec3::Zero();
