@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -15,6 +16,7 @@ constexpr double tiny_area = 1e-10;   // [m^2]
 // Hems, cuffs, waistbands and neck bands are folded or bound: two or three layers of cloth that bend as one.
 constexpr double band = 0.02;        // [m] wide
 constexpr double band_stiffer = 10;  // [-] two layers would come to 8, three to 27
+constexpr double pi2 = std::numbers::pi * std::numbers::pi;
 
 /// One side of a triangle, seen from the triangle.
 struct HalfEdge {
@@ -228,7 +230,7 @@ Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const P
   const std::vector<double> far = from_open_edges(pattern, nodes, count, 2 * band);
   for (std::size_t i = 0; i < halves.size();) {
     std::size_t end = i;
-    double k = 0, pull = 0, area = 0, length = 0;
+    double k = 0, pull = 0, area = 0;
     while (end < halves.size() && halves[end].a == halves[i].a && halves[end].b == halves[i].b) {
       // Springs side by side: stiffness adds, the rest length is the one at which their forces cancel.
       const HalfEdge& h = halves[end++];
@@ -236,19 +238,19 @@ Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const P
       k += share;
       pull += share * h.rest;
       area += h.area;
-      length += h.rest;
     }
+    const bool in_band = far[halves[i].a] + far[halves[i].b] <= 2 * band;
+    const double bend = bending ? sheet.bend * (in_band ? band_stiffer : 1) : 0;
     if (k > 0) {
+      const double rest = pull / k;
       c.edge_a.push_back(halves[i].a);
       c.edge_b.push_back(halves[i].b);
       c.edge_k.push_back(k);
-      c.edge_rest.push_back(pull / k);
+      c.edge_rest.push_back(rest);
+      if (bend > 0) c.edge_buckles.push_back(pi2 * bend * area / (rest * rest * rest) / k);
     }
-    if (bending && sheet.bend > 0)
-      for (std::size_t j = i; j + 1 < end; ++j) {
-        const bool in_band = far[halves[j].a] + far[halves[j].b] <= 2 * band;
-        add_hinge(c, halves[j], halves[j + 1], sheet.bend * (in_band ? band_stiffer : 1));
-      }
+    if (bend > 0)
+      for (std::size_t j = i; j + 1 < end; ++j) add_hinge(c, halves[j], halves[j + 1], bend);
     i = end;
   }
   weigh(c);
@@ -256,7 +258,7 @@ Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const P
 }
 
 void set_raw_constants(Cloth& c, double k, double m) {
-  if (k > 0) std::fill(c.edge_k.begin(), c.edge_k.end(), k);
+  if (k > 0) std::fill(c.edge_k.begin(), c.edge_k.end(), k), c.edge_buckles.clear();
   if (m > 0) std::fill(c.mass.begin(), c.mass.end(), m);
   weigh(c);
 }
@@ -278,9 +280,10 @@ double internal_forces(const Cloth& c, const std::vector<double>& x, std::vector
     const double dx = q[0] - p[0], dy = q[1] - p[1], dz = q[2] - p[2];
     const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
     const double stretch = length - c.edge_rest[e];
-    energy += 0.5 * c.edge_k[e] * stretch * stretch;
+    const double buckled = c.edge_buckles.empty() ? 0.0 : std::min(0.0, stretch + c.edge_buckles[e]);
+    energy += 0.5 * c.edge_k[e] * (stretch * stretch - (1 - buckled_share) * buckled * buckled);
     if (length < tiny_length) continue;  // no direction: the neighbours will pull it apart
-    const double s = c.edge_k[e] * stretch / length;
+    const double s = c.edge_k[e] * (stretch - (1 - buckled_share) * buckled) / length;
     f[0] += s * dx, f[1] += s * dy, f[2] += s * dz;
     g[0] -= s * dx, g[1] -= s * dy, g[2] -= s * dz;
   }

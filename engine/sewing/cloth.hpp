@@ -36,6 +36,7 @@ struct Cloth {
 
   std::vector<int> edge_a, edge_b;
   std::vector<double> edge_k, edge_rest;
+  std::vector<double> edge_buckles;  ///< [m] the shortening at which an edge buckles; empty: none ever does
 
   std::vector<int> hinge;                ///< 4 nodes per hinge: edge start, edge end, two opposite corners
   std::vector<double> hinge_k, hinge_c;  ///< [N/m], 4 coefficients [-] per hinge
@@ -61,12 +62,18 @@ Nodes number_nodes(const Pattern& pattern, std::span<const char> weld, int& coun
 /// Springs, hinges and masses of the pattern. Sheet stiffness K becomes k = K * A / L^2 per edge (A: area of the
 /// triangles at the edge), so that a finer mesh is the same fabric; on an equilateral mesh Young's modulus is K itself.
 /// Bending: quadratic isometric hinges (Bergou et al. 2006), also across welded seams; ten times as stiff within 2 cm
-/// of an open edge of a panel's outline, where cloth is hemmed or bound.
+/// of an open edge of a panel's outline, where cloth is hemmed or bound. With bending, an edge that is pressed together
+/// buckles as its strip of cloth would, at Euler's load pi^2 B (A/L) / L^2, and gives way from there on: the folds that
+/// are too small for the mesh (Choi & Ko 2002, "Stable but responsive cloth").
 Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const Positions& start,
                   const SheetStiffness& sheet, double density, double gravity, bool bending);
 
+/// Share [-] of its stiffness that an edge keeps past the point where it buckles: a little, so that the mesh keeps its
+/// shape.
+constexpr double buckled_share = 0.1;
+
 /// Gives every spring the stiffness `k` [N/m] and every node the mass `m` [kg], as in the paper's eq. (2); 0 leaves
-/// what build_cloth() spread.
+/// what build_cloth() spread. The paper's springs are the same both ways: none buckles.
 void set_raw_constants(Cloth& cloth, double k, double m);
 
 /// Adds the forces of springs, hinges, gravity and seams [N] to `force` (3 per node) and returns the energy [J].

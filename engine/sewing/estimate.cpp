@@ -11,12 +11,11 @@ namespace {
 
 // Found on items of which none is measured for docs/ACCURACY.md: those of benchmarks/accuracy/estimate.csv, which
 // `vitrine-estimate-bench` wrote (docs/ARCHITECTURE.md).
-constexpr double turn_mm = 32;  // [mm / rad] that folds lie off the mark, by how sharply the mesh turns in them
+constexpr double turn_mm = 20;  // [mm / rad] that folds lie off the mark, by how sharply the mesh turns in them
+// [-] of the edge length that cloth is off everywhere: folds and roundness that are too small for the mesh
+constexpr double edge_share = 0.05;
 // [mm] off the body, from where on whole folds of a flared skirt lie somewhere else
 constexpr double far_mm = 40;
-// [-] of the edge length that even cloth is off that the body holds everywhere. Nothing in estimate.csv is as tight as
-// that: kept from an earlier choice, and of the items measured for the page it is the shorts that need it.
-constexpr double held_share = 0.02;
 
 }  // namespace
 
@@ -80,7 +79,7 @@ double mean_gap(const Pattern& pattern, const Positions& x, const DistanceField&
 
 double estimate_error(const LevelFigures& level) {
   const double far = level.gap_mm / far_mm;
-  return std::max(turn_mm * level.loose_turn * (1 + far * far), held_share * level.edge_mm);
+  return (turn_mm * level.loose_turn + edge_share * level.edge_mm) * (1 + far * far);
 }
 
 }  // namespace vitrine::sewing

@@ -10,6 +10,7 @@ namespace vitrine::sewing {
 namespace {
 
 constexpr double tiny_length = 1e-9;  // [m] below this a direction means nothing
+constexpr double never = 1e9;         // [m] more than any edge can shorten
 
 VITRINE_WIDE double hang(const double* weight, const double* x, std::size_t count, double* force) {
   Four energy = {};
@@ -27,8 +28,8 @@ VITRINE_INLINE void pull(double* force, int a, int b, const Four& f) {
   store(force + b, load(force + b) - f);
 }
 
-VITRINE_WIDE double stretch(const int* ends, const double* k, const double* rest, std::size_t groups, const double* x,
-                            double* force) {
+VITRINE_WIDE double stretch(const int* ends, const double* k, const double* rest, const double* buckles,
+                            std::size_t groups, const double* x, double* force) {
   Four energy = {};
   const Four one = {1, 1, 1, 1}, none = {};
   for (std::size_t g = 0; g < groups; ++g) {
@@ -36,8 +37,10 @@ VITRINE_WIDE double stretch(const int* ends, const double* k, const double* rest
     const Four d0 = load(x + n[4]) - load(x + n[0]), d1 = load(x + n[5]) - load(x + n[1]);
     const Four d2 = load(x + n[6]) - load(x + n[2]), d3 = load(x + n[7]) - load(x + n[3]);
     const Four length = root(squares(d0, d1, d2, d3));
-    const Four longer = length - load(rest + 4 * g), tension = load(k + 4 * g) * longer;
-    energy += tension * longer;
+    const Four longer = length - load(rest + 4 * g), past = longer + load(buckles + 4 * g), strength = load(k + 4 * g);
+    const Four buckled = past < 0 ? past : none;
+    const Four tension = strength * (longer - (1 - buckled_share) * buckled);
+    energy += strength * (longer * longer - (1 - buckled_share) * (buckled * buckled));
     // Without a direction there is no force: the neighbours will pull it apart.
     const Four s = length < tiny_length ? none : tension / (length < tiny_length ? one : length);
     pull(force, n[0], n[4], s[0] * d0);
@@ -79,9 +82,15 @@ void unpack(const Packed& four, std::vector<double>& three) {
 }
 
 Springs::Springs(const Cloth& c)
-    : k_(c.edge_k), rest_(c.edge_rest), bend_(c.hinge_k), factor_(c.hinge_c), seams_(c.seams) {
+    : k_(c.edge_k),
+      rest_(c.edge_rest),
+      buckles_(c.edge_buckles),
+      bend_(c.hinge_k),
+      factor_(c.hinge_c),
+      seams_(c.seams) {
   const int unused = 4 * static_cast<int>(packed_nodes(c.size) - 1);
   while (k_.size() % 4 != 0) k_.push_back(0), rest_.push_back(0);
+  buckles_.resize(k_.size(), never);
   ends_.assign(2 * k_.size(), unused);
   for (std::size_t e = 0; e < c.edge_k.size(); ++e) {
     ends_[e / 4 * 8 + e % 4] = 4 * c.edge_a[e];
@@ -94,7 +103,7 @@ Springs::Springs(const Cloth& c)
 
 double Springs::forces(const Packed& x, Packed& force) const {
   double energy = hang(weight_.data(), x.data(), weight_.size(), force.data());
-  energy += stretch(ends_.data(), k_.data(), rest_.data(), k_.size() / 4, x.data(), force.data());
+  energy += stretch(ends_.data(), k_.data(), rest_.data(), buckles_.data(), k_.size() / 4, x.data(), force.data());
   energy += bend(corners_.data(), bend_.data(), factor_.data(), bend_.size(), x.data(), force.data());
   for (const SeamSpring& s : seams_) {
     double d[3], gap = 0;

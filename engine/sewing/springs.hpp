@@ -22,6 +22,7 @@ class Springs {
  private:
   std::vector<int> ends_;              // per group of four edges: four starts, four ends, as places in a Packed
   std::vector<double> k_, rest_;       // per edge
+  std::vector<double> buckles_;        // per edge: [m] of shortening
   std::vector<int> corners_;           // per hinge: four nodes, as places in a Packed
   std::vector<double> bend_, factor_;  // per hinge: [N/m], four coefficients
   std::vector<SeamSpring> seams_;

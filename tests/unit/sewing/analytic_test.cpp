@@ -2,7 +2,9 @@
 // Scenes whose rest shape is known on paper: the springs and the relaxation have to find it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "cloth.hpp"
@@ -12,6 +14,7 @@
 #include "residual.hpp"
 #include "scene.hpp"
 #include "smooth_field.hpp"
+#include "springs.hpp"
 
 namespace vitrine {
 namespace {
@@ -222,6 +225,53 @@ TEST(Cloth, bias_is_softer_than_warp) {
     const bool diagonal = c.edge_rest[e] > 1.1;
     EXPECT_NEAR(c.edge_k[e] * c.edge_rest[e] * c.edge_rest[e], diagonal ? 100 * 1.0 : 1000 * 0.5, 1e-9);
   }
+}
+
+TEST(Cloth, edges_buckle_at_eulers_load_and_keep_a_tenth_of_their_stiffness) {
+  PanelMesh mesh;
+  mesh.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Nodes nodes;
+  const double bend = 15;  // [N m] no panel has an outline here, so none of it is a band
+  Cloth c = sheet(mesh, {1000, 100, bend}, 0, nodes);
+  ASSERT_EQ(c.edge_buckles.size(), c.edge_k.size());
+  for (std::size_t e = 0; e < c.edge_k.size(); ++e) {
+    const double length = c.edge_rest[e], width = (length > 1.1 ? 1.0 : 0.5) / length;
+    const double load = std::numbers::pi * std::numbers::pi * bend * width / (length * length);
+    EXPECT_NEAR(c.edge_k[e] * c.edge_buckles[e], load, 1e-9 * load);
+  }
+  // One edge alone, pressed: the load at which it buckles, and a tenth of the slope from there on.
+  for (std::size_t e = 1; e < c.edge_k.size(); ++e) c.edge_k[e] = 0;
+  c.hinge.clear(), c.hinge_k.clear(), c.hinge_c.clear();
+  const Vec3 a = c.at(c.edge_a[0]), along = (c.at(c.edge_b[0]) - a).normalized();
+  for (const double shorter : {-0.1, 0.5 * c.edge_buckles[0], c.edge_buckles[0], c.edge_buckles[0] + 0.1}) {
+    const Vec3 b = a + (c.edge_rest[0] - shorter) * along;
+    std::copy_n(b.data(), 3, &c.x[3 * c.edge_b[0]]);
+    std::vector<double> force(c.x.size(), 0.0), unused(c.x.size(), 0.0);
+    const double energy = internal_forces(c, c.x, force);
+    const double push = force[3 * c.edge_b[0]] * along.x() + force[3 * c.edge_b[0] + 1] * along.y();
+    const double past = std::max(0.0, shorter - c.edge_buckles[0]);
+    EXPECT_NEAR(push, c.edge_k[0] * (shorter - 0.9 * past), 1e-9);
+    std::vector<double> nearer = c.x;
+    for (int i = 0; i < 3; ++i) nearer[3 * c.edge_b[0] + i] -= 1e-7 * along[i];
+    EXPECT_NEAR((internal_forces(c, nearer, unused) - energy) / 1e-7, push, 1e-4 * std::max(1.0, std::abs(push)));
+    Packed x, packed;
+    pack(c.x, x);
+    packed.assign(x.size(), 0.0);
+    EXPECT_NEAR(Springs(c).forces(x, packed), energy, 1e-12);
+    std::vector<double> wide(c.x.size());
+    unpack(packed, wide);
+    for (std::size_t i = 0; i < wide.size(); ++i) EXPECT_NEAR(wide[i], force[i], 1e-9);
+  }
+}
+
+TEST(Cloth, the_papers_springs_never_buckle) {
+  PanelMesh mesh = scene::grid_mesh(0.4, 0.4, 4, 4, {0, 0});
+  Nodes nodes;
+  Cloth c = sheet(mesh, {1000, 100, 1e-5}, 0.2, nodes);
+  EXPECT_FALSE(c.edge_buckles.empty());
+  set_raw_constants(c, 25, 0);
+  EXPECT_TRUE(c.edge_buckles.empty());
 }
 
 TEST(Relaxation, a_falling_residual_ends_below_the_start_energy) {
