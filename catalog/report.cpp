@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "report_files.hpp"
+
 namespace vitrine {
 namespace {
 
@@ -50,11 +52,6 @@ ItemRecord make(const CatalogItem& item, ItemStatus status, int exit_code, const
   if (!outputs.empty()) line["outputs"] = outputs;
   // A message may quote bytes of a foreign file.
   return {status, exit_code, code, line.dump(-1, ' ', false, Json::error_handler_t::replace), ""};
-}
-
-std::string text_of(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 constexpr std::pair<ItemStatus, const char*> names[] = {

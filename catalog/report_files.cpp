@@ -43,6 +43,11 @@ std::string summary_json(const std::vector<ParsedLine>& lines, const ReportScope
 
 }  // namespace
 
+std::string text_of(const nlohmann::ordered_json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 std::optional<ParsedLine> parse_line(const std::string& line) {
   ParsedLine parsed;
   parsed.json = Json::parse(line, nullptr, false);

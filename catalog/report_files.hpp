@@ -35,6 +35,8 @@ struct ParsedLine {
 };
 /// Empty when a line is none of a report's.
 std::optional<ParsedLine> parse_line(const std::string& line);
+/// What a report's line has under a key; empty where that is no text.
+std::string text_of(const nlohmann::ordered_json& json, const char* key);
 
 /// Writes report.jsonl, timings.jsonl, junit.xml, report.html and, last, summary.json into `folder`, each in one step;
 /// thumbnails are taken from the items' folders in `root`. Error: REPORT (73).

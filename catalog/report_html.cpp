@@ -92,11 +92,6 @@ std::string lower(std::string text) {
   return text;
 }
 
-std::string text_of(const nlohmann::ordered_json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 std::string figures(const nlohmann::ordered_json& json) {
   const auto number = [&](const char* key, const char* format) -> std::string {
     const auto found = json.find(key);

@@ -7,8 +7,8 @@
 #include <array>
 #include <stdexcept>
 
-#include "vitrine/sku.hpp"
 #include "text.hpp"
+#include "vitrine/sku.hpp"
 
 namespace vitrine::input {
 namespace {

@@ -14,7 +14,7 @@
 namespace vitrine::input {
 namespace {
 
-constexpr int max_depth = 16;
+constexpr int deepest_element = 16;
 constexpr std::size_t max_text = 32'768;  // of one attribute
 
 struct Feed {
@@ -53,7 +53,7 @@ void XMLCALL on_start(void* user, const XML_Char* name, const XML_Char**) {
   Feed& feed = *static_cast<Feed*>(user);
   std::string_view local;
   const bool known = ours(name, local);
-  if (++feed.depth > max_depth)
+  if (++feed.depth > deepest_element)
     return feed.stop("FEED_XML", "elements are nested more than 16 deep", "Give a plain product feed.");
   if (feed.depth == 1 && local != "rss" && local != "feed")
     return feed.stop("FEED_XML", "the file is no product feed: its root is <" + one_line(local, 60) + ">",

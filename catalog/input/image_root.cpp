@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_files = 2'000'000;
-constexpr int max_depth = 32;
+constexpr int deepest_folder = 32;
 
 bool below(const std::string& file, const std::string& root) {
   return root == "/" ||
@@ -92,7 +92,7 @@ Result<ImageRoot> ImageRoot::open(const std::string& folder) {
         if (!unknown && below(target.string(), all.folder_) && fs::is_regular_file(target, unknown))
           add(path, target.string());
       } else if (entry->is_directory(unknown)) {
-        if (level.depth < max_depth) open.push_back({path + "/", level.depth + 1});
+        if (level.depth < deepest_folder) open.push_back({path + "/", level.depth + 1});
       } else if (entry->is_regular_file(unknown)) {
         add(path, "");
       }

@@ -8,7 +8,7 @@
 namespace vitrine::input {
 namespace {
 
-constexpr int max_depth = 16;
+constexpr int deepest_value = 16;
 
 std::string place(std::string_view text, std::size_t at, const std::string& file) {
   const std::string_view before = text.substr(0, std::min(at, text.size()));
@@ -40,7 +40,7 @@ Result<nlohmann::json> parse_json(std::string_view text, const std::string& file
     if (c == '{' && object_lines != nullptr) object_lines->push_back(line);
     if (c == '{' || c == '[') ++depth;
     if (c == '}' || c == ']') --depth;
-    if (depth > max_depth)
+    if (depth > deepest_value)
       return bad(code, place(text, i, file), "the JSON is nested more than 16 levels deep",
                  "Write a list of plain objects.");
   }

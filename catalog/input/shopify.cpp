@@ -18,10 +18,10 @@ bool is_one_of(const std::string& name, std::initializer_list<const char*> names
   return std::any_of(names.begin(), names.end(), [&](const char* n) { return plain == n; });
 }
 
-struct Columns {
+struct ShopifyColumns {
   int handle, title, body, category, type, tags, status, sku, picture, position, alt;
   int option_name[max_options], option_value[max_options];
-  explicit Columns(const FeedTable& t)
+  explicit ShopifyColumns(const FeedTable& t)
       : handle(t.column({"url handle", "handle"})),
         title(t.column({"title"})),
         body(t.column({"description", "body (html)"})),
@@ -47,7 +47,7 @@ struct Open {
   std::vector<std::string> colours;
 };
 
-void take_options(const FeedTable& table, const Columns& c, Product& product, Open& open) {
+void take_options(const FeedTable& table, const ShopifyColumns& c, Product& product, Open& open) {
   for (int i = 0; i < max_options; ++i) {
     if (std::string name = table.text(c.option_name[i], 100); !name.empty()) open.option_name[i] = std::move(name);
     const std::string value = table.text(c.option_value[i], 100);
@@ -66,7 +66,7 @@ void fill(std::string& text, std::string value) {
 
 Products read_shopify(const std::string& file, std::string_view text, const Rules& rules) {
   FeedTable table(file, text, rules);
-  const Columns c(table);
+  const ShopifyColumns c(table);
   if (c.handle < 0 || c.picture < 0)
     return bad("MANIFEST_COLUMN", file + ":1",
                std::string("a Shopify export has a column \"") + (c.handle < 0 ? "Handle" : "Image Src") + "\" or \"" +

@@ -12,10 +12,10 @@ namespace {
 
 constexpr int max_attributes = 6;
 
-struct Columns {
+struct WooColumns {
   int id, type, sku, name, published, short_text, text, categories, tags, pictures, parent;
   int attribute[max_attributes], values[max_attributes];
-  explicit Columns(const FeedTable& t)
+  explicit WooColumns(const FeedTable& t)
       : id(t.column({"id"})),
         type(t.column({"type"})),
         sku(t.column({"sku"})),
@@ -35,7 +35,7 @@ struct Columns {
   }
 };
 
-void take_attributes(const FeedTable& table, const Columns& c, Product& product) {
+void take_attributes(const FeedTable& table, const WooColumns& c, Product& product) {
   for (int i = 0; i < max_attributes; ++i) {
     const std::string name = lower(table.text(c.attribute[i], 100));
     const std::string values = table.text(c.values[i], 2000);
@@ -50,7 +50,7 @@ void take_attributes(const FeedTable& table, const Columns& c, Product& product)
 
 Products read_woocommerce(const std::string& file, std::string_view text, const Rules& rules) {
   FeedTable table(file, text, rules);
-  const Columns c(table);
+  const WooColumns c(table);
   if (c.pictures < 0 || (c.sku < 0 && c.id < 0))
     return bad("MANIFEST_COLUMN", file + ":1",
                std::string("a WooCommerce export has a column \"") + (c.pictures < 0 ? "Images" : "SKU") + "\"",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw.hpp"
+
 #include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -13,11 +14,6 @@ cv::Mat as_mat(Image& image) {
   return cv::Mat(image.height, image.width, CV_8UC(image.channels), image.data.data());
 }
 
-cv::Point to_point(const Vec2& p) {
-  // Sub-pixel drawing: OpenCV takes fixed-point coordinates with `shift` fractional bits.
-  return {static_cast<int>(std::lround(p.x() * 16)), static_cast<int>(std::lround(p.y() * 16))};
-}
-
 }  // namespace
 
 Image draw_mesh(const PanelMesh& mesh, int height) {
@@ -27,7 +23,7 @@ Image draw_mesh(const PanelMesh& mesh, int height) {
   Image image(static_cast<int>((high.x() - low.x()) * scale) + 40, height, 3, 255);
   cv::Mat canvas = as_mat(image);
   const auto place = [&](const Vec2& p) {
-    return to_point(Vec2(20 + (p.x() - low.x()) * scale, 20 + (high.y() - p.y()) * scale));
+    return fixed(Vec2(20 + (p.x() - low.x()) * scale, 20 + (high.y() - p.y()) * scale));
   };
   for (const Triangle& t : mesh.triangles) {
     const cv::Point corners[] = {place(mesh.nodes[t[0]]), place(mesh.nodes[t[1]]), place(mesh.nodes[t[2]])};

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "as_given.hpp"
+#include "draw.hpp"
 
 namespace vitrine {
 namespace {
@@ -23,10 +24,6 @@ Box box_of(const Image& labels) {
         box.high = box.high.cwiseMax(Vec2(x, y));
       }
   return box;
-}
-
-cv::Point fixed(const Vec2& p) {
-  return {static_cast<int>(std::lround(p.x() * 16)), static_cast<int>(std::lround(p.y() * 16))};
 }
 
 }  // namespace

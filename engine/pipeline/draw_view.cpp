@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "as_given.hpp"
+#include "draw.hpp"
 
 namespace vitrine {
 namespace {
@@ -32,11 +33,6 @@ struct Sheet {
     return {size.width, size.height + below};
   }
 };
-
-cv::Point fixed(const Vec2& p) {
-  // Sub-pixel drawing: OpenCV takes fixed-point coordinates with `shift` fractional bits.
-  return {static_cast<int>(std::lround(p.x() * 16)), static_cast<int>(std::lround(p.y() * 16))};
-}
 
 /// Dims the ground, tints the inside, draws the outlines with a dark rim that shows on any cloth.
 void draw_regions(const Sheet& sheet, const Image& labels, const std::vector<Vec2>& panel) {

@@ -39,10 +39,6 @@ int fail_run(Error error) {
   return fail(error);
 }
 
-Error usage(const std::string& message, const std::string& remedy) {
-  return Error{Cause::usage, "USAGE", message, remedy, ""};
-}
-
 std::optional<Error> read_fail_on(const std::string& text, double& share) {
   if (text == "any" || text == "never") {
     share = text == "any" ? 0 : 1;

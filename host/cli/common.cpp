@@ -190,9 +190,6 @@ void JobOptions::add_to(CLI::App& app) {
 }
 
 std::optional<Error> JobOptions::apply(ConvertRequest& request) const {
-  const auto usage = [](const std::string& message, const std::string& remedy) {
-    return Error{Cause::usage, "USAGE", message, remedy, ""};
-  };
   const std::pair<const char*, std::optional<double>> positive[] = {
       {"--max-error", max_error_mm}, {"--max-time", max_time_s}, {"--work-rate", work_rate}};
   for (const auto& [name, value] : positive)
@@ -261,6 +258,16 @@ Result<Measurements> read_all_measurements(const std::string& path) {
   Measurements m;
   if (auto e = read_measurements(path, m, true)) return *e;
   return m;
+}
+
+Error usage(const std::string& message, const std::string& remedy) {
+  return Error{Cause::usage, "USAGE", message, remedy, ""};
+}
+
+std::optional<Error> print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return std::nullopt;
+  return Error{Cause::unwritable, "CANNOT_WRITE", "standard output cannot be written", "check the disk or the pipe",
+               ""};
 }
 
 int fail(const Error& error) {

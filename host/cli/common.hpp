@@ -61,6 +61,10 @@ Result<Measurements> read_all_measurements(const std::string& path);
 
 /// Prints "vitrine: message / remedy" to standard error and returns the exit code.
 int fail(const Error& error);
+/// What contradicts itself on the command line: USAGE (64).
+Error usage(const std::string& message, const std::string& remedy);
+/// Error: CANNOT_WRITE (73); standard output is a file like any other and can be full.
+std::optional<Error> print(const std::string& text);
 
 void add_convert(CLI::App& app, int& exit_code);
 void add_catalog(CLI::App& app, int& exit_code);

@@ -17,9 +17,6 @@ struct FeaturesArguments {
 };
 
 std::optional<Error> check_arguments(const FeaturesArguments& a) {
-  const auto usage = [](const std::string& message, const std::string& remedy) {
-    return Error{Cause::usage, "USAGE", message, remedy, ""};
-  };
   if (a.front.empty() == a.back.empty())
     return usage(a.front.empty() ? "a photo is missing" : "--front and --back exclude each other",
                  "give one of them; run the command once for each photo");
@@ -47,13 +44,6 @@ std::optional<Error> write_picture(const std::string& path, const Image& image) 
   const auto png = encode_png(image);
   if (!png) return png.error();
   return write_file(path, *png);
-}
-
-/// Standard output is a file like any other: it can be full.
-std::optional<Error> print(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return std::nullopt;
-  return Error{Cause::unwritable, "CANNOT_WRITE", "standard output cannot be written", "check the disk or the pipe",
-               ""};
 }
 
 int run_features(const FeaturesArguments& a) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "item_options.hpp"
 
+#include "common.hpp"
+
 namespace vitrine::cli {
 
 void ItemOptions::add_to(CLI::App& app, bool required) {
@@ -25,9 +27,6 @@ void ItemOptions::add_to(CLI::App& app, bool required) {
 }
 
 std::optional<Error> ItemOptions::check() const {
-  const auto usage = [](const std::string& message, const std::string& remedy) {
-    return Error{Cause::usage, "USAGE", message, remedy, ""};
-  };
   if (request.back.empty() && !request.mirror_back)
     return usage("a back photo is missing", "give --back FILE, or --mirror-back when the shop has none");
   if (!request.back.empty() && request.mirror_back)

@@ -42,10 +42,6 @@ MeasuredItem item_of(const CatalogItem& row, const std::string& source, const Pl
   return item;
 }
 
-Error usage(const std::string& message, const std::string& remedy) {
-  return Error{Cause::usage, "USAGE", message, remedy, "measure"};
-}
-
 /// The items of all inputs; one that cannot be read is an error as a whole.
 Result<std::vector<MeasuredItem>> items_of(const MeasureArguments& a, const PluginRegistry& registry,
                                            MannequinShelf& shelf) {

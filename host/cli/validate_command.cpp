@@ -10,12 +10,6 @@
 namespace vitrine::cli {
 namespace {
 
-std::optional<Error> print(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return std::nullopt;
-  return Error{Cause::unwritable, "CANNOT_WRITE", "standard output cannot be written", "check the disk or the pipe",
-               ""};
-}
-
 struct ValidateArguments {
   ValidateOptions options;
   PluginOptions partners;
