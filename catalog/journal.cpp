@@ -16,7 +16,6 @@ namespace vitrine {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr const char* synced_line = "{\"synced\":true}\n";
 
@@ -27,21 +26,21 @@ double monotonic_seconds() {
 }
 
 std::string line_of(const std::string& sku, const JournalEntry& e) {
-  const Json json{{"sku", sku},
-                  {"key", e.key},
-                  {"parts", e.parts},
-                  {"inputs", to_json(e.inputs)},
-                  {"outputs", to_json(e.outputs)},
-                  {"status", name_of(e.record.status)},
-                  {"exit_code", e.record.exit_code},
-                  {"code", e.record.code},
-                  {"line", e.record.line},
-                  {"timing", e.record.timing},
-                  {"attempts", e.attempts}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const nlohmann::json json{{"sku", sku},
+                            {"key", e.key},
+                            {"parts", e.parts},
+                            {"inputs", to_json(e.inputs)},
+                            {"outputs", to_json(e.outputs)},
+                            {"status", name_of(e.record.status)},
+                            {"exit_code", e.record.exit_code},
+                            {"code", e.record.code},
+                            {"line", e.record.line},
+                            {"timing", e.record.timing},
+                            {"attempts", e.attempts}};
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-bool entry_of(const Json& json, bool trusted, std::string& sku, JournalEntry& e) {
+bool entry_of(const nlohmann::json& json, bool trusted, std::string& sku, JournalEntry& e) {
   const auto text = [&](const char* key, std::string& to) {
     const auto found = json.find(key);
     if (found == json.end() || !found->is_string()) return false;
@@ -66,8 +65,8 @@ bool entry_of(const Json& json, bool trusted, std::string& sku, JournalEntry& e)
     if (!value.is_string()) return false;
     e.parts[name] = value.get<std::string>();
   }
-  return from_json(json.value("inputs", Json()), true, e.inputs) &&
-         from_json(json.value("outputs", Json()), trusted, e.outputs);
+  return from_json(json.value("inputs", nlohmann::json()), true, e.inputs) &&
+         from_json(json.value("outputs", nlohmann::json()), trusted, e.outputs);
 }
 
 }  // namespace
@@ -85,7 +84,7 @@ Journal::Read Journal::read(const fs::path& file) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;
     const std::string_view line(text.data() + begin, end - begin);
-    const Json json = Json::parse(line, nullptr, false);
+    const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
     // A whole line that is no entry of ours (another version's, or damaged) is one that we do not know.
     if (json.is_object() && json.contains("sku")) {
       std::string sku;

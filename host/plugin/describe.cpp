@@ -4,11 +4,11 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "print.hpp"
+
 namespace vitrine {
 
-namespace {
-
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...) {
+void print(std::string& out, const char* format, ...) {
   va_list arguments, again;
   va_start(arguments, format);
   va_copy(again, arguments);
@@ -22,6 +22,8 @@ namespace {
   }
   va_end(again);
 }
+
+namespace {
 
 const char* name_of(Turn turn) {
   switch (turn) {

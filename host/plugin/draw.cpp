@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 
+#include "print.hpp"
 #include "vitrine/host/describe.hpp"
 
 namespace vitrine {
@@ -26,15 +26,6 @@ const char* colour_of(EdgeKind kind) {
       break;
   }
   return "#4d8c57";
-}
-
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...) {
-  char line[1024];  // every line below is shorter: names have at most 64 bytes, titles 200, and escapes six for one
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
 }
 
 std::string escaped(const std::string& text) {
