@@ -30,16 +30,14 @@ std::optional<double> apart_mm(const std::optional<double>& a, const std::option
 
 /// The two references of an item. The second goes through other levels: it meets the body with other folds, and is as
 /// right as the first.
-Settings reference_settings(const MeasureOptions& options, bool second, int iterations) {
+Settings reference_settings(const MeasureOptions& options, bool second) {
   Settings settings = settings_of(Quality::fine);
   settings.level_nodes =
       levels_up_to(second ? std::vector<int>{500, 3500, 12'000} : settings.level_nodes, options.reference_nodes);
   settings.residual = options.reference_residual;
-  settings.max_iterations = iterations;
+  settings.max_iterations = options.reference_iterations;
   return settings;
 }
-
-constexpr int patience = 5;  // times the steps that a reference has
 
 /// What of a drape's skipped effects can be turned on, by how the drape's list calls it.
 struct Switch {
@@ -127,17 +125,8 @@ class Study {
     return row;
   }
 
-  /// A reference whose steps ran out is made once more with more of them.
   Made reference(bool second) {
-    const Made made = reference(second, o_.reference_iterations);
-    if (!made.draped() || is_reference(made)) return made;
-    say("reference: not at rest, residual " +
-        text("%.1e; once more with %.0f times the steps", made.residual, patience));
-    return reference(second, patience * o_.reference_iterations);
-  }
-
-  Made reference(bool second, int iterations) {
-    const Settings settings = reference_settings(o_, second, iterations);
+    const Settings settings = reference_settings(o_, second);
     // What standard made of the item depends on all that a reference depends on: photos, options, plugins, fabric,
     // mannequin and the program.
     std::string key = "1 ";

@@ -123,9 +123,8 @@ std::string markdown(const Measurement& m, const std::vector<SettingMeans>& mean
         return std::string(text);
       }() +
       " or " + std::to_string(options.reference_iterations) +
-      " steps a level (five times as many where it is not at rest then), from two starts. Mean distance of the two: " +
-      fixed(spread.mean(), 2) + " mm (worst item " + fixed(spread.most, 2) +
-      " mm): no rest shape is truer than that. One reference took " + fixed(each, 0) +
+      " steps a level, from two starts. Mean distance of the two: " + fixed(spread.mean(), 2) + " mm (worst item " +
+      fixed(spread.most, 2) + " mm): no rest shape is truer than that. One reference took " + fixed(each, 0) +
       " s of a processor.\n\n| item | nodes | residual A | residual B | status A | status B | spread mean "
       "[mm] | p95 | max | hem | waist | chest |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   const auto cell = [](const std::optional<double>& x, int digits) { return x ? fixed(*x, digits) : "–"; };

@@ -128,8 +128,7 @@ void add_measure(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1e-12, 1.0))
       ->capture_default_str();
   command
-      ->add_option("--reference-steps", a->options.reference_iterations,
-                   "Most steps of the reference, on each level; five times as many where it is not at rest then")
+      ->add_option("--reference-steps", a->options.reference_iterations, "Most steps of the reference, on each level")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command->add_option("--max-error", a->max_error_mm, "Also convert with this error [mm] asked for: was it met?")

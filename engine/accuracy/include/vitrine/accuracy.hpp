@@ -74,7 +74,7 @@ struct MeasureOptions {
   bool effects = true;
   int reference_nodes = 40'000;
   double reference_residual = 1e-6;
-  int reference_iterations = 20'000;  ///< per level, a budget of work; five times as many where they do not do
+  int reference_iterations = 20'000;  ///< per level; a budget of work
   double max_error = 0;               ///< [m] also made with this asked for; 0 = not
   int jobs = 1;                       ///< items at a time
   std::string version;                ///< of the program, for the summary
