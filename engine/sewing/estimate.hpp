@@ -18,9 +18,9 @@ double loose_turn(const Pattern& pattern, const Positions& x, const DistanceFiel
 /// Distance [m] from the skin offset to the cloth, mean over its area.
 double mean_gap(const Pattern& pattern, const Positions& x, const DistanceField& body, double offset);
 
-/// Mean closest distance [mm] of a level's surface to what ever finer meshes would give, from `loose_turn`,
-/// `edge_mm` and `gap_mm`. Rest shapes under friction are not unique, so it is meant
-/// for one way of getting there, and is no bound.
+/// Mean closest distance [mm] of a level's surface to what ever finer meshes would give, from `loose_turn`, `edge_mm`
+/// and `gap_mm`. Rest shapes under friction are not unique, so it is meant for one way of getting there, and is no
+/// bound.
 double estimate_error(const LevelFigures& level);
 
 }  // namespace vitrine::sewing

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // vitrine plugin validate, checks, lock, and what validate asks of another process.
-#include <cstdio>
 #include <filesystem>
 
 #include "common.hpp"
