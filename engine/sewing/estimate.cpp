@@ -15,7 +15,7 @@ constexpr double turn_mm = 20;  // [mm / rad] that folds lie off the mark, by ho
 // [-] of the edge length that cloth is off everywhere: folds and roundness that are too small for the mesh
 constexpr double edge_share = 0.05;
 // [mm] off the body, from where on whole folds of a flared skirt lie somewhere else
-constexpr double far_mm = 40;
+constexpr double far_mm = 50;
 
 }  // namespace
 

@@ -10,8 +10,9 @@ namespace vitrine::sewing {
 namespace {
 
 constexpr double apart = 0.0015;  // [m] between front and back: two thicknesses of cloth, and no flicker on a screen
-constexpr double reach = 0.02;    // [m] deeper is not drawn back: it would be another fold of the cloth
+constexpr double deepest = 0.02;  // [m] deeper is not drawn back: it would be another fold of the cloth
 constexpr double by_seam = 0.04;  // [m] beside a seam the panels always touch: two edges of a mesh for the shop
+constexpr double least_facing = 0.3;  // [-] cosine of walls that face away from each other
 
 struct Cell {
   std::int64_t key;
@@ -123,7 +124,8 @@ std::vector<LayerPair> find_layers(const Pattern& pattern, const Nodes& nodes, c
         if (s < 0 || r < 0 || s + r > 1) return;
         const Vec3 outwards = other == 1 ? Vec3(-normal) : normal;
         // Opposite walls of the garment face away from each other; a pleat that laps over the seam does not.
-        if (way[i].dot(outwards) >= -0.3 * way[i].norm()) return;
+        const double facing = -way[i].dot(outwards) / std::max(way[i].norm(), 1e-12);
+        if (facing <= least_facing) return;
         const double height = d.dot(outwards);
         if (std::abs(height) >= nearest) return;
         nearest = std::abs(height);
@@ -131,6 +133,8 @@ std::vector<LayerPair> find_layers(const Pattern& pattern, const Nodes& nodes, c
         pair.share[0] = 1 - s - r, pair.share[1] = s, pair.share[2] = r;
         pair.outwards = outwards;
         pair.height = height;
+        // A push that ended at once where a pair leaves the list would throw the node back into it for ever.
+        pair.hold = std::min({1.0, 2 - 2 * nearest / reach, (facing - least_facing) / least_facing});
       });
       if (nearest >= reach) continue;
       pair.node = static_cast<int>(nodes[p][i]);
@@ -144,7 +148,7 @@ void Layers::look(const Packed& x) {
   Positions positions(nodes_.size());
   for (std::size_t p = 0; p < nodes_.size(); ++p)
     for (const auto n : nodes_[p]) positions[p].emplace_back(x[4 * n], x[4 * n + 1], x[4 * n + 2]);
-  pairs_ = find_layers(pattern_, nodes_, positions, reach);
+  pairs_ = find_layers(pattern_, nodes_, positions, deepest);
 }
 
 double Layers::forces(const Packed& x, Packed& force) const {
@@ -157,9 +161,10 @@ double Layers::forces(const Packed& x, Packed& force) const {
       over += pair.outwards[a] * (x[4 * pair.node + a] - foot);
     }
     if (over <= 0) continue;
-    energy += 0.5 * k_ * over * over;
+    const double k = pair.hold * k_;
+    energy += 0.5 * k * over * over;
     for (int a = 0; a < 3; ++a) {
-      const double push = k_ * over * pair.outwards[a];
+      const double push = k * over * pair.outwards[a];
       force[4 * pair.node + a] -= push;
       for (int c = 0; c < 3; ++c) force[4 * pair.triangle[c] + a] += pair.share[c] * push;
     }
@@ -170,8 +175,8 @@ double Layers::forces(const Packed& x, Packed& force) const {
 void Layers::add_stiffness(std::vector<double>& mass) const {
   for (const LayerPair& pair : pairs_) {
     // A spring's row sums to 2k and counts as k, as for every other spring.
-    mass[pair.node] += k_;
-    for (int c = 0; c < 3; ++c) mass[pair.triangle[c]] += k_ * pair.share[c];
+    mass[pair.node] += pair.hold * k_;
+    for (int c = 0; c < 3; ++c) mass[pair.triangle[c]] += pair.hold * k_ * pair.share[c];
   }
 }
 

@@ -13,6 +13,7 @@ struct LayerPair {
   double share[3] = {0, 0, 0};            ///< [-] barycentric place of the node's foot on the triangle
   Vec3 outwards = Vec3::Zero();           ///< unit normal of the triangle, away from the wearer
   double height = 0;                      ///< [m] of the node over the triangle; above 0 it has passed through
+  double hold = 1;                        ///< [-] 0 to 1: fades where the pair would leave the list
 };
 
 /// Every node of front and back with the nearest triangle of the other panel less than `reach` [m] away, in the order

@@ -7,6 +7,7 @@
 
 #include "coarse_space.hpp"
 #include "lanes.hpp"
+#include "motion.hpp"
 #include "residual.hpp"
 #include "springs.hpp"
 
@@ -21,6 +22,10 @@ constexpr int patience = 5;
 // FIRE turns the velocity towards the force. Where a slow slide goes on under small forces, that turn would amount to
 // many steps at once, too long for the stiffest motions: one node at an armhole then shakes and halts the whole cloth.
 constexpr double turn_most = 0.05;  // [dt]
+// FIRE halts everything when the motion goes uphill. A fold that swings aside under small forces would then start anew
+// at every tremble somewhere else; averaging velocities over neighbours so often takes the tremble and leaves the
+// swing.
+constexpr int calming_rounds = 8;
 
 constexpr double stiffest_margin = 2.5;  // dt^2 times the stiffest eigenvalue; 4 is the limit of stability
 constexpr int measure_every = 100, first_rounds = 6, later_rounds = 3;  // of power iteration
@@ -30,55 +35,6 @@ constexpr int floor_patience = 2000;                                    // steps
 
 void put(Packed& v, int n, const Vec3& value) {
   for (int a = 0; a < 3; ++a) v[4 * n + a] = value[a];
-}
-
-struct Sums {
-  double force = 0;  ///< sum of |f|
-  double power = 0, vv = 0;
-};
-
-VITRINE_WIDE Sums sums_of(const double* f, const double* v, const double* mass, std::size_t nodes) {
-  Four force = {}, power = {}, vv = {};
-  for (std::size_t n = 0; n < nodes; n += 4) {
-    const Four f0 = load(f + 4 * n), f1 = load(f + 4 * n + 4), f2 = load(f + 4 * n + 8), f3 = load(f + 4 * n + 12);
-    const Four v0 = load(v + 4 * n), v1 = load(v + 4 * n + 4), v2 = load(v + 4 * n + 8), v3 = load(v + 4 * n + 12);
-    force += root(squares(f0, f1, f2, f3));
-    power += f0 * v0 + f1 * v1 + f2 * v2 + f3 * v3;
-    vv += load(mass + n) * squares(v0, v1, v2, v3);
-  }
-  return {sum(force), sum(power), sum(vv)};
-}
-
-VITRINE_WIDE void scale_by_node(const double* f, const double* per_mass, std::size_t nodes, double* out) {
-  for (std::size_t n = 0; n < nodes; ++n) store(out + 4 * n, per_mass[n] * load(f + 4 * n));
-}
-
-VITRINE_WIDE double squares_by_mass(const double* a, const double* mass, std::size_t nodes) {
-  Four aa = {};
-  for (std::size_t n = 0; n < nodes; n += 4)
-    aa += load(mass + n) * squares(load(a + 4 * n), load(a + 4 * n + 4), load(a + 4 * n + 8), load(a + 4 * n + 12));
-  return sum(aa);
-}
-
-VITRINE_WIDE void steer(double keep, double push, const double* a, std::size_t count, double* v) {
-  for (std::size_t i = 0; i < count; i += 4) store(v + i, keep * load(v + i) + push * load(a + i));
-}
-
-/// Moves by dt * v and adds the steps' lengths to `path`; gives the longest one.
-VITRINE_WIDE double move(double dt, const double* v, std::size_t nodes, double* x, double* path) {
-  Four most = {};
-  for (std::size_t n = 0; n < nodes; n += 4) {
-    const Four s0 = dt * load(v + 4 * n), s1 = dt * load(v + 4 * n + 4), s2 = dt * load(v + 4 * n + 8),
-               s3 = dt * load(v + 4 * n + 12);
-    const Four length = root(squares(s0, s1, s2, s3));
-    most = length > most ? length : most;
-    store(path + n, load(path + n) + length);
-    store(x + 4 * n, load(x + 4 * n) + s0);
-    store(x + 4 * n + 4, load(x + 4 * n + 4) + s1);
-    store(x + 4 * n + 8, load(x + 4 * n + 8) + s2);
-    store(x + 4 * n + 12, load(x + 4 * n + 12) + s3);
-  }
-  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
 class Fire {
@@ -98,6 +54,10 @@ class Fire {
     for (int n = 0; n < c_.size; ++n) held_[n] = c_.pinned[n];
     touched_at_.assign(nodes_, -hold_for);
     path_.assign(nodes_, 0.0);
+    share_.assign(nodes_, 1.0);
+    for (const auto* ends : {&c_.edge_a, &c_.edge_b})
+      for (const int n : *ends) share_[n] += 1;
+    for (double& s : share_) s = 1 / s;
     if (contact_) wake(*contact_);
     if (layers_) layers_->look(x_);
     update_masses();
@@ -301,9 +261,25 @@ class Fire {
     uphill_free_ = 0;
   }
 
+  /// Takes the tremble from the motion. Nodes at the body keep theirs, which friction calms; what still goes uphill is
+  /// halted.
+  void calm() {
+    for (int round = 0; round < calming_rounds; ++round) {
+      calmer_ = v_;
+      add_neighbours(c_.edge_a.data(), c_.edge_b.data(), c_.edge_a.size(), v_.data(), calmer_.data());
+      for (int n = 0; n < c_.size; ++n)
+        if (!held_[n]) store(&v_[4 * n], share_[n] * load(&calmer_[4 * n]));
+    }
+    const Sums s = sums_of(f_.data(), v_.data(), mass_.data(), nodes_);
+    if (!(s.power > 0)) return halt();
+    vv_ = s.vv;
+    dt_ = std::max(dt_least, slower * dt_);
+    uphill_free_ = 0;
+  }
+
   void advance() {
     if (power_ < 0) {
-      halt();
+      calm();
     } else if (++uphill_free_ > patience) {
       dt_ = std::min(dt_cap_, dt_ * faster);
       alpha_ *= alpha_fade;
@@ -351,9 +327,10 @@ class Fire {
   Springs springs_;
   CoarseSpace coarse_;
   std::size_t nodes_;
-  Packed x_, v_, f_, a_, stiffest_;
+  Packed x_, v_, f_, a_, calmer_, stiffest_;
   std::vector<double> mass_, per_mass_, path_;
-  std::vector<char> held_;  // pinned, or lately at the body
+  std::vector<double> share_;  ///< [-] of each in the average of a node and its neighbours
+  std::vector<char> held_;     // pinned, or lately at the body
   std::vector<int> touched_at_;
   std::vector<Vec3> whole_;
   double dt_ = dt_start, dt_cap_ = dt_most, dt_long_ = dt_most, alpha_ = alpha_start;

@@ -27,7 +27,8 @@ struct RelaxOutcome {
 
 /// Relaxes to rest: FIRE (Bitzek et al. 2006) with fictitious masses equal to the local stiffness, so that a unit step
 /// is stable for any k and m; Coulomb friction as an impulse on the velocity. Stops on the force residual outside the
-/// friction cone, never on velocity. Lattices (coarse_space.hpp) move large pieces of the free cloth at once, so the
+/// friction cone, never on velocity. A motion that goes uphill loses its tremble first and is halted only when that
+/// does not help. Lattices (coarse_space.hpp) move large pieces of the free cloth at once, so the
 /// steps needed hardly grow with the mesh. On x86-64 four numbers at a time where the machine can: the same bytes.
 /// `layers` may be null: then front and back pass through each other where no body parts them.
 RelaxOutcome relax(Cloth& cloth, Contact* contact, const RelaxOptions& options, Layers* layers = nullptr);

@@ -85,6 +85,22 @@ TEST(Layers, forces_are_the_slope_of_the_energy_and_cancel) {
   EXPECT_NEAR(-slope, force[4 * node + 2], 1e-3 * std::abs(force[4 * node + 2]) + 1e-6);
 }
 
+// A push that ended at once would throw a node to and fro over the depth from which on it is left alone.
+TEST(Layers, let_go_of_what_is_crossed_deeply_little_by_little) {
+  double before = 1;
+  for (const double depth : {0.002, 0.009, 0.012, 0.015, 0.018, 0.0199}) {
+    TwoSheets sheets(-depth);
+    const std::vector<LayerPair> pairs =
+        find_layers(sheets.pattern, sheets.nodes, scatter(sheets.cloth, sheets.nodes), 0.02);
+    ASSERT_GT(pairs.size(), 100U) << depth;
+    for (const LayerPair& pair : pairs) {
+      EXPECT_NEAR(pair.hold, std::min(1.0, (0.02 - depth) / 0.01), 1e-9) << depth;
+      EXPECT_LE(pair.hold, before + 1e-12);
+    }
+    before = pairs.front().hold;
+  }
+}
+
 // Next to a seam the panels always touch. How far that reaches is a matter of the cloth: were it one of the mesh, the
 // finest meshes would push at folds that coarser ones rightly leave alone, and never come to rest.
 TEST(Layers, beside_a_seam_are_left_alone_over_the_same_width_on_every_mesh) {
