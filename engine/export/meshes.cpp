@@ -16,7 +16,7 @@
 namespace vitrine {
 namespace {
 
-Error failed(const std::string& message) {
+Error not_written(const std::string& message) {
   return {Cause::internal, "MESH_FILE_FAILED", message, "Report this with the photos that caused it.", "export"};
 }
 
@@ -134,7 +134,8 @@ std::optional<Error> write_scene(std::span<const RenderMesh> meshes, const Write
   Assimp::ExportProperties properties;
   properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, name);
   const aiExportDataBlob* blob = exporter.ExportToBlob(scene.get(), writer.id, 0, &properties);
-  if (!blob) return failed(std::string("assimp could not write ") + base.string() + ": " + exporter.GetErrorString());
+  if (!blob)
+    return not_written(std::string("assimp could not write ") + base.string() + ": " + exporter.GetErrorString());
   for (std::size_t i = 0; i < meshes.size(); ++i)
     if (!textures[i].empty())
       if (auto error = write_file((std::filesystem::path(folder) / textures[i]).string(), pictures[i])) return error;
@@ -152,7 +153,7 @@ std::optional<Error> write_meshes(std::span<const RenderMesh> meshes, MeshFormat
                                   const std::string& name) {
   if (auto error = check_meshes(meshes)) return error;
   if (name.empty() || name.find('/') != std::string::npos || name[0] == '.')
-    return failed("\"" + name + "\" is not a file name.");
+    return not_written("\"" + name + "\" is not a file name.");
   try {
     if (format == MeshFormat::obj) return write_scene(meshes, {"obj", ".obj"}, folder, name);
     for (const RenderMesh& mesh : meshes)
@@ -161,7 +162,7 @@ std::optional<Error> write_meshes(std::span<const RenderMesh> meshes, MeshFormat
         return error;
     return std::nullopt;
   } catch (const std::exception& e) {
-    return failed("The mesh could not be made: " + std::string(e.what()));
+    return not_written("The mesh could not be made: " + std::string(e.what()));
   }
 }
 

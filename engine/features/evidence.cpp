@@ -12,7 +12,7 @@
 namespace vitrine::features_detail {
 namespace {
 
-constexpr double kFar = 1e18;
+constexpr double kOutOfReach = 1e18;
 constexpr double kLongArm = 0.09;    // arm that sees past a bite of 1.5 % of the diagonal, share of the diagonal
 constexpr double kGuard = 0.055;     // past a bite of 2 %, share of the diagonal
 constexpr double kNetArm = 0.11;     // share of the diagonal
@@ -110,7 +110,7 @@ double unexplained(const Outline& outline, const GarmentTemplate& garment, const
       const int before = (s - first + n) % n, after = (last - s + n) % n;
       const double turn = std::min({std::abs(sample.coarse_deg), std::abs(long_turn(outline, s, before, after)),
                                     std::abs(net_turn(outline, s, before, after))});
-      double nearest = kFar;
+      double nearest = kOutOfReach;
       for (std::size_t f = 0; f < sample_of.size(); ++f)
         if (!waist[f] || sample.coarse_deg < 0)
           nearest = std::min(nearest, (outline.samples[sample_of[f]].at - sample.at).norm());

@@ -23,7 +23,7 @@ namespace vitrine {
 namespace {
 
 constexpr std::uintmax_t most_bytes = 256U << 20;
-constexpr std::size_t most_triangles = 2'000'000;
+constexpr std::size_t most_read_triangles = 2'000'000;
 
 Error refuse(const char* code, const std::string& path, const std::string& what, const std::string& remedy) {
   return Error{Cause::unusable, code, "The mannequin " + path + " " + what + ".", remedy, ""};
@@ -103,7 +103,7 @@ Result<TriMesh> read_mesh(const std::string& path) {
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
   if (triangles == 0)
     return refuse("NOT_A_MESH", path, "has no triangles", "Give a closed mesh as OBJ, GLB, PLY or DAE.");
-  if (triangles > most_triangles)
+  if (triangles > most_read_triangles)
     return refuse("TOO_LARGE", path, "has more than 2,000,000 triangles", "Simplify the mesh.");
   TriMesh soup;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {

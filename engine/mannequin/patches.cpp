@@ -21,7 +21,7 @@ struct Pair {
 };
 
 /// Every triangle with every cell whose middle it is near, by triangle.
-std::vector<Pair> near_cells(const Surface& surface, const DistanceField& field, const std::array<int, 3>& bricks) {
+std::vector<Pair> near_cells(const Facets& surface, const DistanceField& field, const std::array<int, 3>& bricks) {
   const float h = static_cast<float>(field.spacing), reach = list_reach * h;
   const Vec3 middle = field.origin + Vec3::Constant(0.5 * field.spacing);
   std::vector<Pair> pairs;
@@ -90,7 +90,7 @@ void leave_out_contradictions(const DistanceField& field, SurfacePatches& patche
 
 }  // namespace
 
-SurfacePatches find_patches(const Surface& surface, const DistanceField& field, bool overlaps) {
+SurfacePatches find_patches(const Facets& surface, const DistanceField& field, bool overlaps) {
   SurfacePatches result;
   result.overlaps = overlaps;
   if (surface.facets.size() > most_facets) return result;
@@ -167,7 +167,7 @@ SurfacePatches find_patches(const Surface& surface, const DistanceField& field, 
 namespace vitrine {
 
 SurfacePatches find_patches(const TriMesh& body, const DistanceField& field, bool overlaps) {
-  return body::find_patches(body::Surface(body), field, overlaps);
+  return body::find_patches(body::Facets(body), field, overlaps);
 }
 
 }  // namespace vitrine

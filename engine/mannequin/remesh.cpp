@@ -10,7 +10,7 @@ namespace vitrine::body {
 namespace {
 
 using Index = std::uint32_t;
-constexpr std::size_t most_triangles = 100'000;  ///< several times what a body has
+constexpr std::size_t most_split_triangles = 100'000;  ///< several times what a body has
 
 class Remesher {
  public:
@@ -90,7 +90,7 @@ class Remesher {
   void split() {
     const std::size_t count = t_.size();
     // A solid that is not one (parts far apart, vertices that cannot reach it) would be cut up for ever.
-    if (count > most_triangles) return;
+    if (count > most_split_triangles) return;
     for (Index i = 0; i < count; ++i)
       for (int k = 0; k < 3; ++k) {
         const Index a = t_[i][k], b = t_[i][(k + 1) % 3];

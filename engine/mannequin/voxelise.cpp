@@ -15,15 +15,15 @@ namespace vitrine {
 
 using body::Facet;
 using body::Grid;
-using body::Surface;
+using body::Facets;
 
 namespace {
 
 constexpr std::size_t most_voxels = std::size_t{1} << 27;  ///< 128 M: 0.5 GB of floats
-constexpr std::size_t most_triangles = 2'000'000;
+constexpr std::size_t most_body_triangles = 2'000'000;
 
 /// Exact distances up to `band` [m] from the surface and, where `nearest` is not empty, the triangles they lead to.
-void fill_band(const Surface& surface, const Grid& g, double band, std::vector<float>& distance,
+void fill_band(const Facets& surface, const Grid& g, double band, std::vector<float>& distance,
                std::span<std::int32_t> nearest) {
   const TriMesh& body = surface.mesh;
   constexpr float far = std::numeric_limits<float>::max();
@@ -62,7 +62,7 @@ void fill_band(const Surface& surface, const Grid& g, double band, std::vector<f
 
 /// Carries the nearest triangle from voxel to voxel (vector distance sweeping): far from the surface the distance is
 /// that to a true triangle, so it is never too small and very nearly exact.
-void sweep(const Surface& body, const Grid& g, std::vector<float>& distance, std::vector<std::int32_t>& nearest) {
+void sweep(const Facets& body, const Grid& g, std::vector<float>& distance, std::vector<std::int32_t>& nearest) {
   const auto pull = [&](const Vec3& p, std::size_t v, std::size_t from) {
     const std::int32_t t = nearest[from];
     if (t < 0 || t == nearest[v]) return;
@@ -204,7 +204,7 @@ class Fans {
 };
 
 /// Walks over the mesh from triangle t to the one nearest to p, vertex by vertex downhill.
-std::int32_t walk(const Surface& surface, const Fans& fans, const Vec3& p, std::int32_t t) {
+std::int32_t walk(const Facets& surface, const Fans& fans, const Vec3& p, std::int32_t t) {
   const TriMesh& body = surface.mesh;
   const auto off = [&](std::uint32_t v) { return (body.vertices[v] - p).squaredNorm(); };
   const Triangle& first = body.triangles[static_cast<std::size_t>(t)];
@@ -225,7 +225,7 @@ std::int32_t walk(const Surface& surface, const Fans& fans, const Vec3& p, std::
   return t;
 }
 
-Coarse make_coarse(const Surface& surface, const Grid& g) {
+Coarse make_coarse(const Facets& surface, const Grid& g) {
   const TriMesh& body = surface.mesh;
   Coarse c{{g.origin, coarse_step * g.spacing, {0, 0, 0}}, {}, {}, {}};
   for (int a = 0; a < 3; ++a) c.grid.n[a] = (g.n[a] - 1) / coarse_step + 2;
@@ -344,7 +344,7 @@ Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options)
                  "Give a spacing of 0.0005 to 0.1 m and a margin of 0 to 2 m.", ""};
   if (body.triangles.empty() || body.vertices.empty())
     return refuse("NOT_WATERTIGHT", "The body has no triangles.", "Give a closed mesh.");
-  if (body.triangles.size() > most_triangles || body.vertices.size() > 3 * most_triangles)
+  if (body.triangles.size() > most_body_triangles || body.vertices.size() > 3 * most_body_triangles)
     return refuse("TOO_LARGE", "The body has more than 2,000,000 triangles.", "Simplify the mesh.");
   const body::MeshState state = body::inspect(body);
   if (!state.valid_indices || !state.finite)
@@ -378,7 +378,7 @@ Result<DistanceField> voxelise(const TriMesh& body, const VoxelOptions& options)
   field.size = g.n;
   const std::size_t total = static_cast<std::size_t>(g.n[0]) * g.n[1] * g.n[2];
   field.values.assign(total, std::numeric_limits<float>::max());
-  const Surface surface(body);
+  const Facets surface(body);
   const double band = band_voxels * g.spacing;
   fill_band(surface, g, band, field.values, {});
   fill_far(make_coarse(surface, g), g, static_cast<float>(band), field.values);

@@ -97,8 +97,8 @@ class Facet {
 };
 
 /// The body's mesh and its triangles once more, prepared.
-struct Surface {
-  explicit Surface(const TriMesh& m) : mesh(m) {
+struct Facets {
+  explicit Facets(const TriMesh& m) : mesh(m) {
     facets.reserve(m.triangles.size());
     for (const Triangle& t : m.triangles) facets.emplace_back(m.vertices[t[0]], m.vertices[t[1]], m.vertices[t[2]]);
   }
@@ -119,6 +119,6 @@ struct Grid {
 
 /// The triangles that decide the sign in each cell that the surface passes, for a field whose values are known. Where
 /// the mesh overlaps itself, triangles lie inside the body; cells whose triangles contradict the values are left out.
-SurfacePatches find_patches(const Surface& surface, const DistanceField& field, bool overlaps);
+SurfacePatches find_patches(const Facets& surface, const DistanceField& field, bool overlaps);
 
 }  // namespace vitrine::body

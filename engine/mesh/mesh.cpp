@@ -24,7 +24,7 @@ using namespace mesh_room;
 
 /// How far the wall's disorder is allowed to reach, in target edges: deeper nodes keep their place in the lattice.
 constexpr double kRingDepth = 3.7;
-constexpr int kRounds = 4;  ///< of the edge-ratio rules
+constexpr int kRuleRounds = 4;  ///< of the edge-ratio rules
 
 /// Whether the triangles are all that lies between the loops: by number (Euler) and by area.
 bool covers(const Boundary& boundary, const std::vector<Vec2>& nodes, const std::vector<Triangle>& triangles) {
@@ -57,7 +57,7 @@ Result<Sheet> make_sheet(const Boundary& boundary, const Sizing& sizing, const I
 /// Settled, by the rules, and polished.
 void relax(Sheet& sheet, const Ground& ground, std::vector<std::uint32_t> ring, int sweeps) {
   settle(sheet, ring, sweeps);
-  for (int round = 0; round < kRounds && apply_edge_ratio_rules(sheet, ground, ring) > 0; ++round) {
+  for (int round = 0; round < kRuleRounds && apply_edge_ratio_rules(sheet, ground, ring) > 0; ++round) {
     if (!ground.sizing.uniform())
       for (const std::uint32_t i : ring) sheet.set_size(i, ground.sizing.at(sheet.at(i)));
     settle(sheet, ring, sweeps / 2);

@@ -15,10 +15,6 @@ constexpr double kLeastArea = 0.05;   ///< [-] twice the area of a triangle, in 
 constexpr double kRest = 2e-3;        ///< [-] largest step, in target edges, that counts as rest
 constexpr int kSweepsBetweenFlips = 3;
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Where the neighbours push node i [m]: the forces times R^3, over the sum of (R / r)^2, which makes it the mean of
 /// how far the edges are off their rest length, the shorter ones weighing more.
 Vec2 push_at(const Sheet& sheet, std::uint32_t i) {

@@ -12,10 +12,6 @@ namespace {
 /// Below this sine of the angle excess an edge stays as it is, so that rounding cannot flip it to and fro.
 constexpr double kExcess = 1e-9;
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 }  // namespace
 
 Sheet::Sheet(std::vector<Vec2> nodes, std::vector<double> sizes, std::size_t wall_size,

@@ -8,6 +8,11 @@
 
 namespace vitrine::mesh_room {
 
+/// Twice the area that a and b span, counter-clockwise.
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// The triangulation while nodes move: triangles that know their neighbours, so that a change costs what it touches and
 /// not a triangulation of everything. Wall edges have no neighbour; they are never flipped, split or moved.
 class Sheet {

@@ -11,8 +11,7 @@
 namespace vitrine::sewing {
 namespace {
 
-constexpr double tiny_length = 1e-9;  // [m] below this a direction means nothing
-constexpr double tiny_area = 1e-10;   // [m^2]
+constexpr double tiny_area = 1e-10;  // [m^2]
 // Hems, cuffs, waistbands and neck bands are folded or bound: two or three layers of cloth that bend as one.
 constexpr double band = 0.02;        // [m] wide
 constexpr double band_stiffer = 10;  // [-] two layers would come to 8, three to 27

@@ -68,6 +68,7 @@ Nodes number_nodes(const Pattern& pattern, std::span<const char> weld, int& coun
 Cloth build_cloth(const Pattern& pattern, const Nodes& nodes, int count, const Positions& start,
                   const SheetStiffness& sheet, double density, double gravity, bool bending);
 
+constexpr double tiny_length = 1e-9;  ///< [m] below this a direction means nothing
 /// Share [-] of its stiffness that an edge keeps past the point where it buckles: a little, so that the mesh keeps its
 /// shape.
 constexpr double buckled_share = 0.1;

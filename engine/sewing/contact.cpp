@@ -61,7 +61,7 @@ bool far_away(const Contact& c, std::size_t i, const Packed& x) {
 }
 
 /// Unit ways out of the body at the cloth's nodes.
-std::vector<Vec3> ways_out(const Cloth& cloth, const DistanceField& field) {
+std::vector<Vec3> ways_out_of_body(const Cloth& cloth, const DistanceField& field) {
   std::vector<Vec3> way(cloth.size);
   for (int n = 0; n < cloth.size; ++n) {
     field.distance(cloth.at(n), way[n]);
@@ -73,7 +73,7 @@ std::vector<Vec3> ways_out(const Cloth& cloth, const DistanceField& field) {
 /// Samples between the nodes: of every edge and triangle, or of those the body curves under. `s` is an ordinary node's.
 void add_middles(Contact& c, const Cloth& cloth, ContactSample s) {
   const bool all = c.middles == Middles::all;
-  const std::vector<Vec3> way = ways_out(cloth, *c.field);
+  const std::vector<Vec3> way = ways_out_of_body(cloth, *c.field);
   // A chord over which the surface turns by an angle sags by length * angle / 8.
   const auto turn = [&](int a, int b) { return std::acos(std::clamp(way[a].dot(way[b]), -1.0, 1.0)); };
   const auto bridges = [&](int a, int b) {

@@ -2,17 +2,11 @@
 #include "effects.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "text.hpp"
 
 namespace vitrine::sewing {
 namespace {
-
-template <class... Numbers>
-std::string text(const char* format, Numbers... numbers) {
-  char buffer[240];
-  std::snprintf(buffer, sizeof buffer, format, numbers...);
-  return buffer;
-}
 
 std::string found(const SelfContact& s) {
   return text("%d places of front and back touch, %d have crossed, by up to %.1f mm", s.close, s.crossed,

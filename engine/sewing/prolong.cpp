@@ -8,7 +8,7 @@
 namespace vitrine::sewing {
 namespace {
 
-constexpr double reach = 0.5;  // barycentric coordinates may leave [0, 1] by this much: beyond, extension exaggerates
+constexpr double beyond = 0.5;  // [-] barycentric coordinates may leave [0, 1] so far: then extension exaggerates
 
 /// Uniform bins over the coarse triangles.
 class Bins {
@@ -92,7 +92,7 @@ std::vector<Vec3> prolong(const PanelMesh& coarse, const std::vector<Vec3>& posi
       out.push_back(positions.front());
       continue;
     }
-    b = b.cwiseMax(-reach).cwiseMin(1 + reach);
+    b = b.cwiseMax(-beyond).cwiseMin(1 + beyond);
     b /= b.sum();
     const Triangle& tri = coarse.triangles[t];
     out.push_back(b[0] * positions[tri[0]] + b[1] * positions[tri[1]] + b[2] * positions[tri[2]]);

@@ -9,8 +9,7 @@
 namespace vitrine::sewing {
 namespace {
 
-constexpr double tiny_length = 1e-9;  // [m] below this a direction means nothing
-constexpr double never = 1e9;         // [m] more than any edge can shorten
+constexpr double never = 1e9;  // [m] more than any edge can shorten
 
 VITRINE_WIDE double hang(const double* weight, const double* x, std::size_t count, double* force) {
   Four energy = {};

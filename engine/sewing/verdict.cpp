@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verdict.hpp"
 
-#include <cstdio>
+#include "text.hpp"
 
 namespace vitrine::sewing {
 namespace {
 
 constexpr double strain_bar = 0.8;  // [-] jersey and rib bear nearly double their width; beyond, cloth would tear
-
-std::string text(const char* format, double a, double b = 0) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "pipeline_checks.hpp"
@@ -11,12 +10,6 @@ namespace vitrine::validation {
 namespace {
 
 constexpr double most_residual = 1e-2, most_gap_mm = 2, most_depth_mm = 1;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 /// Pieces that the sewn cloth falls into.
 int pieces(const Pattern& pattern, const Drape& drape) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 
@@ -22,6 +23,12 @@ void Session::conclude(std::string_view check, const std::vector<std::string>& f
   if (findings.empty()) return pass(check, figures);
   fail(check, findings.front() +
                   (findings.size() > 1 ? " (and " + std::to_string(findings.size() - 1) + " more like it)" : ""));
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
 }
 
 std::string code_of_rule(std::string_view rule) {

@@ -35,6 +35,9 @@ class Session {
   const ChildReport& report_;
 };
 
+/// A figure in a finding: three digits.
+std::string number(double value);
+
 /// Code of the error that adopt() gives for a rule: "span.data" is PLUGIN_SPAN_DATA.
 std::string code_of_rule(std::string_view rule);
 

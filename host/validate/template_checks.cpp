@@ -12,12 +12,6 @@ namespace {
 
 using Findings = std::map<std::string_view, std::vector<std::string>>;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

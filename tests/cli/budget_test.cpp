@@ -8,8 +8,8 @@ using namespace vitrine::test;
 
 namespace {
 
-const std::string vest = "convert --front '" + sample + "vest-sailor-front.jpg' --back '" + sample +
-                         "vest-sailor-back.jpg' --garment vest --chest-cm 46 ";
+const std::string sailor = "convert --front '" + sample + "vest-sailor-front.jpg' --back '" + sample +
+                           "vest-sailor-back.jpg' --garment vest --chest-cm 46 ";
 
 struct Made {
   Outcome run;
@@ -17,7 +17,7 @@ struct Made {
 };
 
 Made make(const std::string& options, const fs::path& out) {
-  Made made{run_vitrine(vest + options + " --out '" + out.string() + "'"), {}};
+  Made made{run_vitrine(sailor + options + " --out '" + out.string() + "'"), {}};
   if (fs::exists(out / "report.json")) made.report = nlohmann::json::parse(slurp(out / "report.json"));
   return made;
 }

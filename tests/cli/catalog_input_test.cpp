@@ -11,10 +11,6 @@ using ::testing::HasSubstr;
 
 namespace {
 
-std::string in_quotes(const fs::path& path) {
-  return "'" + path.string() + "'";
-}
-
 fs::path put(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
   return path;

@@ -45,10 +45,6 @@ std::map<std::string, cv::Point2d> points_of(const json& report) {
   return points;
 }
 
-std::string in_quotes(const fs::path& path) {
-  return "'" + path.string() + "'";
-}
-
 /// A sample photo as a PNG of its own, so that no second compression comes between two runs.
 fs::path edited(const std::string& name, const fs::path& folder, const std::function<void(cv::Mat&)>& edit) {
   cv::Mat photo = cv::imread(sample + name);

@@ -10,10 +10,6 @@ using nlohmann::json;
 
 namespace {
 
-std::string in_quotes(const fs::path& path) {
-  return "'" + path.string() + "'";
-}
-
 json usual() {
   return {{"sex", "woman"}, {"height", 1680},    {"bust", 900}, {"under_bust", 770}, {"waist", 745},
           {"hip", 980},     {"inside_leg", 805}, {"arm", 560},  {"neck_base", 362}};

@@ -49,6 +49,11 @@ inline fs::path scratch() {
   return folder;
 }
 
+/// For the shell.
+inline std::string in_quotes(const fs::path& path) {
+  return "'" + path.string() + "'";
+}
+
 inline const std::string sample = std::string(VITRINE_SOURCE_DIR) + "/catalog/sample/";
 
 }  // namespace vitrine::test

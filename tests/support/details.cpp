@@ -9,10 +9,6 @@ namespace {
 
 using std::numbers::pi;
 
-double bell(double x) {
-  return std::exp(-x * x);
-}
-
 /// A knitted band along a curve: its own colour, ribs across it, raised a little, sewn on.
 void add_rib(const Curve& curve, double wide, int part, const PhotoSpec& spec, const Canvas& canvas, Layers& layers) {
   const cv::Vec3f trim = linear(spec.trim);

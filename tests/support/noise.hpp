@@ -7,6 +7,11 @@
 // Own mappings from bits to numbers: the distributions of <random> differ between standard libraries, mt19937 does not.
 namespace vitrine::support {
 
+/// A bump: 1 at 0, next to nothing beyond 2.
+inline double bell(double x) {
+  return std::exp(-x * x);
+}
+
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : engine_(seed) {}

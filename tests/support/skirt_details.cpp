@@ -7,10 +7,6 @@
 namespace vitrine::support {
 namespace {
 
-double bell(double x) {
-  return std::exp(-x * x);
-}
-
 struct Tailor {
   const PhotoSpec& spec;
   const Shape& shape;

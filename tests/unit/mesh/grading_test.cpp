@@ -21,7 +21,7 @@ Outline strap(double width, double h) {
                       h);
 }
 
-PanelMesh meshed(const Outline& outline, double h) {
+PanelMesh meshed_soundly(const Outline& outline, double h) {
   auto mesh = mesh_panel(outline, {.edge_length = h});
   EXPECT_TRUE(mesh) << mesh.error().message;
   if (!mesh) return {};
@@ -48,7 +48,7 @@ TEST(Grading, gives_a_strap_finer_edges_and_the_body_none) {
   const double h = 0.02;
   for (const double edges : {2.0, 2.5, 3.0}) {
     const Outline outline = strap(edges * h, h);
-    const PanelMesh mesh = meshed(outline, h);
+    const PanelMesh mesh = meshed_soundly(outline, h);
     const double in_strap = mean_edge(mesh, outline.size(), [](const Vec2& p) { return p.y() > 0.44 && p.y() < 0.66; });
     const double in_body = mean_edge(mesh, outline.size(), [](const Vec2& p) { return p.y() < 0.34; });
     EXPECT_LT(in_strap, 0.9 * h) << edges;
@@ -61,14 +61,14 @@ TEST(Grading, gives_a_strap_finer_edges_and_the_body_none) {
 TEST(Grading, leaves_parts_of_four_edges_and_more_alone) {
   const double h = 0.02;
   const Outline outline = strap(4.2 * h, h);
-  const PanelMesh mesh = meshed(outline, h);
+  const PanelMesh mesh = meshed_soundly(outline, h);
   EXPECT_NEAR(mean_edge(mesh, outline.size(), [](const Vec2& p) { return p.y() > 0.44 && p.y() < 0.66; }), h, 0.07 * h);
 }
 
 TEST(Grading, does_not_take_a_corner_for_a_narrow_part) {
   const double h = 0.02;
   const Outline triangle = test::joined({{{0, 0}, {.5, 0}}, {{.5, 0}, {.25, .433}}, {{.25, .433}, {0, 0}}}, h);
-  const MeshStats stats = measure_mesh(meshed(triangle, h));
+  const MeshStats stats = measure_mesh(meshed_soundly(triangle, h));
   EXPECT_NEAR(stats.edge_mean, h, 0.02 * h);
   EXPECT_LE(stats.edge_cv, 0.05);
 }
@@ -76,7 +76,7 @@ TEST(Grading, does_not_take_a_corner_for_a_narrow_part) {
 TEST(Grading, keeps_straps_of_one_centimetre_valid_at_every_edge_length) {
   for (const double h : {0.005, 0.01, 0.02, 0.04}) {
     const Outline outline = strap(0.01, h);
-    const PanelMesh mesh = meshed(outline, h);
+    const PanelMesh mesh = meshed_soundly(outline, h);
     EXPECT_GE(test::smallest_angle(test::Rim(outline, {}), mesh, 15), h > 0.03 ? 5 : 15) << h;
   }
 }
@@ -85,7 +85,7 @@ TEST(Grading, keeps_sharp_triangles_off_walls_of_any_spacing_up_to_three_targets
   const double h = 0.02;
   for (const double spacing : {0.2, 0.3, 0.5, 0.7, 1.0, 1.3, 1.5, 2.0, 2.5, 3.0})
     for (const auto shape : {test::vest, test::skirt})
-      EXPECT_GE(measure_mesh(meshed(shape(spacing * h), h)).min_angle_deg, 20) << spacing;
+      EXPECT_GE(measure_mesh(meshed_soundly(shape(spacing * h), h)).min_angle_deg, 20) << spacing;
 }
 
 TEST(Grading, is_bounded_where_the_outline_is_far_finer_or_coarser_than_the_target) {
@@ -94,8 +94,8 @@ TEST(Grading, is_bounded_where_the_outline_is_far_finer_or_coarser_than_the_targ
     const double a = 2 * std::numbers::pi * i / 20000;
     circle.push_back({0.3 * std::cos(a), 0.3 * std::sin(a)});
   }
-  EXPECT_LT(meshed(circle, 0.02).nodes.size(), 60000u);
-  const PanelMesh square = meshed({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.01);
+  EXPECT_LT(meshed_soundly(circle, 0.02).nodes.size(), 60000u);
+  const PanelMesh square = meshed_soundly({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.01);
   EXPECT_NEAR(static_cast<double>(square.nodes.size()), 11547, 400);
 }
 
@@ -104,7 +104,7 @@ TEST(Grading, goes_with_segments_that_are_shorter_than_the_target) {
   Outline outline =
       test::joined({{{0, 0}, {.4, 0}}, {{.4, 0}, {.4, .4}}, {{.4, .4}, {0, .4}}, {{0, .4}, {0, 0}}}, 0.02);
   outline.insert(outline.begin() + 11, outline[10] + Vec2(0.002, 0));
-  const PanelMesh mesh = meshed(outline, 0.02);
+  const PanelMesh mesh = meshed_soundly(outline, 0.02);
   EXPECT_GE(measure_mesh(mesh).min_angle_deg, 20);
   EXPECT_NEAR(mean_edge(mesh, outline.size(), [](const Vec2& p) { return p.y() > 0.1; }), 0.02, 0.0005);
 }

@@ -21,7 +21,7 @@ namespace {
 
 using namespace sewing;
 
-constexpr double g = 9.81;
+using scene::g;
 
 /// A chain of n equal springs, hung on its first node: no mesh, only the arrays.
 Cloth chain(int n, double k, double mass, double rest) {

@@ -7,13 +7,14 @@
 
 #include "cloth.hpp"
 #include "relax.hpp"
+#include "scene.hpp"
 
 namespace vitrine {
 namespace {
 
 using namespace sewing;
 
-constexpr double g = 9.81;
+using scene::g;
 
 void add_node(Cloth& c, double x, double y, double mass, bool pinned) {
   c.x.insert(c.x.end(), {x, y, 0.0});

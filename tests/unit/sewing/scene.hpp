@@ -9,6 +9,8 @@
 
 namespace vitrine::scene {
 
+constexpr double g = 9.81;  ///< [m/s^2]
+
 /// A distance field filled from a formula.
 DistanceField make_field(const Vec3& lo, const Vec3& hi, double spacing, const std::function<double(const Vec3&)>& f);
 

@@ -19,7 +19,7 @@ namespace {
 
 using namespace sewing;
 
-constexpr double g = 9.81;
+using scene::g;
 
 /// A square of cloth of `cells` x `cells`, 0.4 m wide, hung in the plane z = 0.
 Cloth square(int cells, const SheetStiffness& s, double density) {
