@@ -81,16 +81,17 @@ Drawing pareto_chart(const std::vector<RunRow>& runs, const std::vector<SettingM
   const auto best = pareto_front(cost, error);
   for (const std::size_t i : best) front.emplace_back(x(cost[i]), y(error[i]));
   d.line(front, front_colour, 1.5);
-  std::vector<Vec2> named_at;  // where names begin
-  for (std::size_t i = 0; i < who.size(); ++i)
-    if (who[i]->knob.empty()) named_at.emplace_back(x(cost[i]) + 8, y(error[i]) - 7);
+  std::vector<Vec2> named_at;  // where names begin; the qualities' stand beside their dots, the others keep off
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    if (!who[i]->knob.empty()) continue;
+    named_at.emplace_back(x(cost[i]) + 8, y(error[i]) - 7);
+    d.words(named_at.back(), who[i]->setting, named, Anchor::start, 13);
+  }
   for (std::size_t i = 0; i < who.size(); ++i) {
     const bool quality = who[i]->knob.empty();
     const Vec2 at(x(cost[i]), y(error[i]));
     d.dot(at, quality ? 5 : 3.2, quality ? named : setting_colour);
-    if (quality) {
-      d.words(at + Vec2(8, -7), who[i]->setting, named, Anchor::start, 13);
-    } else if (std::find(best.begin(), best.end(), i) != best.end()) {
+    if (!quality && std::find(best.begin(), best.end(), i) != best.end()) {
       // Names that would run into each other stand below each other.
       Vec2 place = at + Vec2(6, 15);
       const auto taken = [&](const Vec2& p) {

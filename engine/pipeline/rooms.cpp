@@ -10,8 +10,9 @@
 namespace vitrine {
 namespace {
 
-constexpr double residual_per_error = 1;  // [1/m] 1e-3 for each millimetre that --max-error allows
-constexpr double above_floor = 0.05;      // [m] of a hem that follows the body's height, not a given length
+constexpr double residual_per_error = 1;   // [1/m] 1e-3 for each millimetre that --max-error allows,
+constexpr double loosest_residual = 3e-3;  // and no more: at 1e-2 folds of flared skirts are left half-way
+constexpr double above_floor = 0.05;       // [m] of a hem that follows the body's height, not a given length
 
 double polygon_area(const std::vector<Vec2>& p) {
   double twice = 0;
@@ -194,10 +195,9 @@ Rooms::Step Rooms::sew() {
   const double rooms = work_of_rooms(request_, item_);
   const Budget& budget = request_.budget;
   options.max_error = budget.max_error;
-  // Cloth that may be off by millimetres need not be balanced as well as a close look asks. At 1e-2 folds of flared
-  // skirts would be left half-way.
+  // Cloth that may be off by millimetres need not be balanced as well as a close look asks.
   if (budget.max_error > 0)
-    options.residual = std::max(options.residual, std::min(residual_per_error * budget.max_error, 3e-3));
+    options.residual = std::max(options.residual, std::min(residual_per_error * budget.max_error, loosest_residual));
   // What the other rooms take is not there to be sewn with; a single step is the least there is.
   if (budget.max_time > 0) options.max_work = std::max(1.0, budget.max_time * budget.work_rate - rooms);
   PatternLevels levels;

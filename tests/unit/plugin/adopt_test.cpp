@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 
+#include "given.hpp"
 #include "mutable_garment.hpp"
 #include "vitrine/check.hpp"
 #include "vitrine/templates/necklines.hpp"
@@ -21,10 +22,10 @@
 namespace vitrine {
 namespace {
 
+using test::identity;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const PluginIdentity identity{"some.vitrine.so", "org.example.some", "1.2.3", "Example"};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

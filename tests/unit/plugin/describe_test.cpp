@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "given.hpp"
 #include "mutable_garment.hpp"
 #include "vitrine/host/adopt.hpp"
 #include "vitrine/templates/necklines.hpp"
@@ -12,12 +13,11 @@
 namespace vitrine {
 namespace {
 
+using test::identity;
 using ::testing::HasSubstr;
 
-const PluginIdentity described_as{"some.vitrine.so", "org.example.some", "1.2.3", "Example"};
-
 TEST(Describe, names_every_part_of_a_garment) {
-  const auto g = adopt_garment(templates::long_sleeve, described_as);
+  const auto g = adopt_garment(templates::long_sleeve, identity);
   ASSERT_TRUE(g);
   const std::string text = describe(*g), drawing = draw_svg(*g);
   for (const auto& feature : g->features) {
@@ -37,7 +37,7 @@ TEST(Describe, names_every_part_of_a_garment) {
 TEST(Describe, names_the_ratio_that_selects_a_neckline) {
   vitrine_neckline table = templates::neck_u;
   table.ratio_min = 0.25, table.ratio_max = 0.75;
-  const auto n = adopt_neckline(table, described_as);
+  const auto n = adopt_neckline(table, identity);
   ASSERT_TRUE(n);
   EXPECT_THAT(describe(*n), HasSubstr("at least 0.25 and below 0.75"));
 }
@@ -45,7 +45,7 @@ TEST(Describe, names_the_ratio_that_selects_a_neckline) {
 TEST(DrawSvg, cannot_be_made_to_carry_markup) {
   MutableGarment m(templates::vest);
   m.table.title = "<script>alert(1)</script> & more";
-  const auto g = adopt_garment(m.get(), described_as);
+  const auto g = adopt_garment(m.get(), identity);
   ASSERT_TRUE(g);
   const std::string drawing = draw_svg(*g);
   EXPECT_THAT(drawing, testing::Not(HasSubstr("<script")));

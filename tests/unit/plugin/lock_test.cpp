@@ -9,16 +9,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include "given.hpp"
 #include "vitrine/host/registry.hpp"
 
 namespace vitrine {
 namespace {
 
 namespace fs = std::filesystem;
+using test::shipped;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-const fs::path plugin_folder = fs::path(VITRINE_BINARY_DIR) / "lib/vitrine-1/plugins";
 
 class Lock : public testing::Test {
  protected:
@@ -28,7 +28,7 @@ class Lock : public testing::Test {
     folder = fs::canonical(name);
     for (const char* plugin : {"vest", "skirt"}) {
       const fs::path file = folder / (std::string(plugin) + ".vitrine.so");
-      fs::copy_file(plugin_folder / file.filename(), file);
+      fs::copy_file(shipped / file.filename(), file);
       ::chmod(file.c_str(), 0755);
     }
     file = folder / "plugins.lock";
@@ -51,7 +51,7 @@ TEST_F(Lock, lets_in_what_it_lists_and_nothing_else) {
 
   fs::remove(folder / "skirt.vitrine.so");
   write(lock_text(load("")));
-  fs::copy_file(plugin_folder / "skirt.vitrine.so", folder / "skirt.vitrine.so");
+  fs::copy_file(shipped / "skirt.vitrine.so", folder / "skirt.vitrine.so");
   ::chmod((folder / "skirt.vitrine.so").c_str(), 0755);
   const auto some = load(file);
   EXPECT_EQ(some.plugins().size(), 1u);

@@ -9,14 +9,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include "given.hpp"
+
 namespace vitrine {
 namespace {
 
 namespace fs = std::filesystem;
+using test::shipped;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const fs::path shipped = fs::path(VITRINE_BINARY_DIR) / "lib/vitrine-1/plugins";
 const fs::path broken = fs::path(VITRINE_BINARY_DIR) / "tests/bad_plugins";
 
 /// A folder of its own that only this user may write, gone at the end.
