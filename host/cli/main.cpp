@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -14,6 +15,11 @@ int main(int argc, char** argv) {
   // One thread per item: the same bytes whatever the machine, and nothing to lose when a worker is forked.
   cv::setNumThreads(1);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+#ifdef __GLIBC__
+  // Images and meshes come and go in every room. Given back to the system each time, their pages would be cleared anew.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes] no more is allowed
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+#endif
 
   CLI::App app("Garment photos to a 3D show room: a front and a back photo become a textured garment on a mannequin.",
                "vitrine");
