@@ -10,9 +10,9 @@
 namespace vitrine {
 namespace {
 
-constexpr double residual_per_error = 1;   // [1/m] 1e-3 for each millimetre that --max-error allows,
-constexpr double loosest_residual = 3e-3;  // and no more: at 1e-2 folds of flared skirts are left half-way
-constexpr double above_floor = 0.05;       // [m] of a hem that follows the body's height, not a given length
+constexpr double residual_per_error = 1.5;   // [1/m] 1.5e-3 for each millimetre that --max-error allows,
+constexpr double loosest_residual = 4.5e-3;  // and no more: at 1e-2 folds of flared skirts are left half-way
+constexpr double above_floor = 0.05;         // [m] of a hem that follows the body's height, not a given length
 
 double polygon_area(const std::vector<Vec2>& p) {
   double twice = 0;
