@@ -30,7 +30,7 @@ def machine(data):
         return "What machine the figures come from was not written down.\n"
     return (f"Measured on {m.get('date')} with Vitrine {m.get('version')} ({m.get('compiler')}, build {m.get('build')}) on a machine with "
             f"{m.get('cores')} cores ({m.get('processor')}) and {m.get('memory_gb')} GB. Times are seconds of a processor, which "
-            "other programs on the machine hardly change.\n")
+            "other programs on the machine change by up to a fifth.\n")
 
 
 def bars(data):
