@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vitrine/colour.hpp"
+
 namespace vitrine {
 namespace {
 
@@ -37,10 +39,9 @@ cv::Mat disc(double radius) {
 
 cv::Mat find_print(const cv::Mat& rgb, const cv::Mat& panel, const cv::Mat& depth, double density) {
   // Lab of a lightly smoothed picture: weave and noise are no colours of their own.
-  cv::Mat soft, lab;
+  cv::Mat soft, lab(rgb.size(), CV_32FC3);
   cv::GaussianBlur(rgb, soft, {}, 1.2, 1.2, cv::BORDER_REPLICATE);
-  soft.convertTo(soft, CV_32FC3, 1.0 / 255.0);
-  cv::cvtColor(soft, lab, cv::COLOR_RGB2Lab);
+  for (int y = 0; y < rgb.rows; ++y) lab_from_srgb(soft.ptr(y), lab.ptr<float>(y), rgb.cols);
 
   const cv::Mat band = (depth > kBandStart * density) & (depth < kBandEnd * density) & panel;
   const int bandwidth = cv::countNonZero(band);
