@@ -153,38 +153,7 @@ tinygltf::Value to_value(const nlohmann::json& j) {
   return {};
 }
 
-/// A mesh's pictures as they go into the file.
-struct Pictures {
-  Bytes colour, occlusion;
-  std::size_t size() const { return colour.size() + occlusion.size(); }
-};
-
-/// All pictures at the highest quality at which together they keep the budget.
-Result<std::vector<Pictures>> encode_pictures(std::span<const RenderMesh> meshes, const GlbOptions& options) {
-  for (int quality = options.jpeg_quality;;
-       quality = std::max(options.lowest_quality, quality - options.quality_step)) {
-    std::vector<Pictures> pictures;
-    std::size_t bytes = 0;
-    for (const RenderMesh& mesh : meshes) {
-      Pictures p;
-      if (!mesh.texture.empty()) {
-        auto jpeg = encode_jpeg(mesh.texture, quality);
-        if (!jpeg) return jpeg.error();
-        p.colour = *std::move(jpeg);
-      }
-      if (!mesh.occlusion.empty()) {
-        auto jpeg = encode_jpeg(mesh.occlusion, quality);
-        if (!jpeg) return jpeg.error();
-        p.occlusion = *std::move(jpeg);
-      }
-      bytes += p.size();
-      pictures.push_back(std::move(p));
-    }
-    if (bytes <= options.texture_bytes || quality <= options.lowest_quality) return pictures;
-  }
-}
-
-void add_mesh(Builder& b, const RenderMesh& whole, const Pictures& pictures) {
+void add_mesh(Builder& b, const RenderMesh& whole, const GlbPictures& pictures) {
   const RenderMesh mesh = ordered_for_caches(whole);
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -222,14 +191,45 @@ void add_mesh(Builder& b, const RenderMesh& whole, const Pictures& pictures) {
 
 }  // namespace
 
-Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, const GlbOptions& options) {
-  if (auto error = check_meshes(meshes)) return *error;
+Result<std::vector<GlbPictures>> encode_pictures(std::span<const RenderMesh> meshes, const GlbOptions& options) {
   if (options.lowest_quality < 1 || options.lowest_quality > options.jpeg_quality || options.jpeg_quality > 100 ||
       options.quality_step < 1)
     return Error{Cause::usage, "BAD_QUALITY", "The JPEG qualities of a GLB are out of range.",
                  "Use 1 to 100, the lowest not above the highest.", "export"};
+  for (int quality = options.jpeg_quality;;
+       quality = std::max(options.lowest_quality, quality - options.quality_step)) {
+    std::vector<GlbPictures> pictures;
+    std::size_t bytes = 0;
+    for (const RenderMesh& mesh : meshes) {
+      GlbPictures p;
+      if (!mesh.texture.empty()) {
+        auto jpeg = encode_jpeg(mesh.texture, quality);
+        if (!jpeg) return jpeg.error();
+        p.colour = *std::move(jpeg);
+      }
+      if (!mesh.occlusion.empty()) {
+        auto jpeg = encode_jpeg(mesh.occlusion, quality);
+        if (!jpeg) return jpeg.error();
+        p.occlusion = *std::move(jpeg);
+      }
+      bytes += p.colour.size() + p.occlusion.size();
+      pictures.push_back(std::move(p));
+    }
+    if (bytes <= options.texture_bytes || quality <= options.lowest_quality) return pictures;
+  }
+}
+
+Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, const GlbOptions& options) {
+  if (auto error = check_meshes(meshes)) return *error;
   const auto pictures = encode_pictures(meshes, options);
   if (!pictures) return pictures.error();
+  return encode_glb(meshes, *pictures, options);
+}
+
+Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, std::span<const GlbPictures> pictures,
+                         const GlbOptions& options) {
+  if (auto error = check_meshes(meshes)) return *error;
+  if (pictures.size() < meshes.size()) return failed("Meshes of a GLB are without their pictures.");
   try {
     Builder b;
     b.model.asset.version = "2.0";
@@ -243,7 +243,7 @@ Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, const GlbOptions& o
     tinygltf::Scene scene;
     scene.name = "scene";
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-      add_mesh(b, meshes[i], (*pictures)[i]);
+      add_mesh(b, meshes[i], pictures[i]);
       scene.nodes.push_back(static_cast<int>(b.model.nodes.size()) - 1);
     }
     b.model.scenes.push_back(scene);

@@ -84,9 +84,11 @@ Rooms::Step Rooms::write_glb() {
   for (const auto& [name, girth] : request_.body->mannequin.girths)
     extras["mannequin_mm"][name] = std::round(girth * 1e4) / 10;
   options.extras_json = extras.dump();
-  if (auto e = keep(encode_glb(std::span(&item_.garment, 1), options), item_.garment_glb)) return e;
   const RenderMesh both[] = {item_.garment, item_.mannequin};
-  if (auto e = keep(encode_glb(both, options), item_.dressed_glb)) return e;
+  std::vector<GlbPictures> pictures;
+  if (auto e = keep(encode_pictures(both, options), pictures)) return e;
+  if (auto e = keep(encode_glb(std::span(both, 1), pictures, options), item_.garment_glb)) return e;
+  if (auto e = keep(encode_glb(both, pictures, options), item_.dressed_glb)) return e;
   if (!request_.compress) return std::nullopt;
   if (auto e = keep(compress_glb(item_.garment_glb), item_.garment_page)) return e;
   return keep(compress_glb(item_.dressed_glb), item_.dressed_page);

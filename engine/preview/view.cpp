@@ -92,6 +92,9 @@ class View {
         }
         if (empty) {
           sum = static_cast<float>(options_.samples) * ground(x + 0.5, y + 0.5);
+        } else if (smooth_around(x, y)) {
+          const Vec2 at(x + 0.5, y + 0.5);
+          sum = static_cast<float>(options_.samples) * look(at, trace(at.x(), at.y()), x, y);
         } else {
           for (int s = 0; s < options_.samples; s += 4) {
             std::array<Vec2, 4> at;
@@ -164,12 +167,17 @@ class View {
   void look_at_light() {
     std::vector<LightPoint> raw(static_cast<std::size_t>(columns_) * rows_);
     for (int j = 0; j < rows_; ++j)
-      for (int i = 0; i < columns_; ++i)
-        if (const auto s = trace(i * kStep + 0.5 * kStep, j * kStep + 0.5 * kStep)) {
-          LightPoint& p = raw[static_cast<std::size_t>(j) * columns_ + i];
-          p = {s->point.cast<float>(), s->normal.cast<float>(), lights_.see(s->start, s->normal, s->baked, i, j),
-               s->mesh, s->inner};
-        }
+      for (int first = 0; first < columns_; first += 4) {
+        std::array<Vec3, 4> directions;
+        for (int k = 0; k < 4; ++k)
+          directions[k] = camera_.direction(film((first + k + 0.5) * kStep, (j + 0.5) * kStep));
+        const auto hits = tracer_.first_hits(eye_, directions);
+        for (int k = 0, i = first; k < std::min(4, columns_ - first); ++k, ++i)
+          if (const auto s = seen(directions[k], hits[k]))
+            raw[static_cast<std::size_t>(j) * columns_ + i] = {
+                s->point.cast<float>(), s->normal.cast<float>(), lights_.see(s->start, s->normal, s->baked, i, j),
+                s->mesh, s->inner};
+      }
     points_ = raw;
     for (int j = 0; j < rows_; ++j)
       for (int i = 0; i < columns_; ++i) {
@@ -214,6 +222,19 @@ class View {
     for (int v = std::max(0, j - 1); v <= std::min(rows_ - 1, j + 1); ++v)
       for (int u = std::max(0, i - 1); u <= std::min(columns_ - 1, i + 1); ++u)
         if (points_[static_cast<std::size_t>(v) * columns_ + u].mesh != std::numeric_limits<unsigned>::max())
+          return false;
+    return true;
+  }
+
+  /// All lighting points near the pixel lie on one surface of one colour: a single ray shows what many would.
+  bool smooth_around(int x, int y) const {
+    const int i = x / kStep, j = y / kStep;
+    const LightPoint& own = points_[static_cast<std::size_t>(j) * columns_ + i];
+    if (own.mesh == std::numeric_limits<unsigned>::max() || !meshes_[own.mesh].texture.empty()) return false;
+    for (int v = std::max(0, j - 1); v <= std::min(rows_ - 1, j + 1); ++v)
+      for (int u = std::max(0, i - 1); u <= std::min(columns_ - 1, i + 1); ++u)
+        if (!(same_surface(points_[static_cast<std::size_t>(v) * columns_ + u], own.point, own.normal, own.mesh,
+                           own.inner) > 0))
           return false;
     return true;
   }

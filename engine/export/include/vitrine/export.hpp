@@ -23,9 +23,22 @@ struct GlbOptions {
   std::string extras_json{};            ///< asset.extras as JSON text; empty = none
 };
 
+/// A mesh's pictures as they go into a file: JPEGs, empty where the mesh has none.
+struct GlbPictures {
+  Bytes colour, occlusion;
+};
+
+/// All pictures at the highest quality at which together they keep the budget, one entry for each mesh.
+/// Errors (64): BAD_QUALITY; (70): BAD_IMAGE.
+Result<std::vector<GlbPictures>> encode_pictures(std::span<const RenderMesh> meshes, const GlbOptions& options = {});
+
 /// Binary glTF 2.0: one node, mesh and material per RenderMesh, metres, +Y up, +Z front, doubleSided, 16-bit indices
 /// where they fit, triangles and vertices in the order a graphics card's caches like.
 Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, const GlbOptions& options = {});
+/// The same with pictures that are encoded already, for the first meshes that they were made for: two files of one
+/// garment need them once.
+Result<Bytes> encode_glb(std::span<const RenderMesh> meshes, std::span<const GlbPictures> pictures,
+                         const GlbOptions& options);
 
 /// A copy for a web page: the same file with its vertex and index data under EXT_meshopt_compression; positions are
 /// kept to 1/16,384 of the largest coordinate of each vertex, normals and texture coordinates likewise. Viewers need
