@@ -15,9 +15,8 @@ namespace vitrine {
 namespace {
 
 // Occlusion and soft shadows change slowly along a surface. What the mesh brings along of them is read; for the rest
-// rays are shot from every second pixel of every second
-// row, evened out over neighbours on the same surface, and read from there; what changes quickly, the lie of the cloth
-// and its colour, is looked up for each ray.
+// rays are shot from every second pixel of every second row, evened out over neighbours on the same surface, and read
+// from there; what changes quickly, the lie of the cloth and its colour, is looked up for each ray.
 constexpr int kStep = 2;              // [px] between lighting points
 constexpr int kBlur = 2;              // lighting points to each side
 constexpr int kFloorStep = 8;         // [px] between points of the floor's shadow
@@ -174,9 +173,9 @@ class View {
         const auto hits = tracer_.first_hits(eye_, directions);
         for (int k = 0, i = first; k < std::min(4, columns_ - first); ++k, ++i)
           if (const auto s = seen(directions[k], hits[k]))
-            raw[static_cast<std::size_t>(j) * columns_ + i] = {
-                s->point.cast<float>(), s->normal.cast<float>(), lights_.see(s->start, s->normal, s->baked, i, j),
-                s->mesh, s->inner};
+            raw[static_cast<std::size_t>(j) * columns_ + i] = {s->point.cast<float>(), s->normal.cast<float>(),
+                                                               lights_.see(s->start, s->normal, s->baked, i, j),
+                                                               s->mesh, s->inner};
       }
     points_ = raw;
     for (int j = 0; j < rows_; ++j)

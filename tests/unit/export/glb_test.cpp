@@ -213,6 +213,18 @@ TEST(Glb, is_the_same_bytes_twice) {
   EXPECT_EQ(encode(meshes), encode(meshes));
 }
 
+TEST(Glb, is_the_same_bytes_with_pictures_that_were_encoded_before) {
+  const std::vector<RenderMesh> both{textured_sheet(4), plain_sheet("mannequin", 3)};
+  const auto pictures = encode_pictures(both);
+  ASSERT_TRUE(pictures);
+  ASSERT_EQ(pictures->size(), 2u);
+  const auto dressed = encode_glb(both, *pictures, {}), garment = encode_glb(std::span(both).first(1), *pictures, {});
+  ASSERT_TRUE(dressed && garment);
+  EXPECT_EQ(*dressed, encode(both));
+  EXPECT_EQ(*garment, encode({both[0]}));
+  EXPECT_FALSE(encode_glb(both, std::span(*pictures).first(1), {}));
+}
+
 TEST(Glb, refuses_what_no_viewer_could_show) {
   const auto refused = [](RenderMesh mesh) {
     const auto glb = encode_glb(std::span(&mesh, 1));

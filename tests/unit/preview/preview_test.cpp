@@ -294,6 +294,25 @@ TEST(Preview, shows_folds_by_light_and_shade_in_one_plain_colour) {
   EXPECT_GT(high - low, 40);
 }
 
+TEST(Preview, a_bare_surface_looks_like_one_with_a_texture_of_its_colour) {
+  // Fewer rays are shot at it, which must not show: neither on it nor where a limb stands before it.
+  RenderMesh limb = tube(0.06);
+  for (Vec3& p : limb.positions) p += Vec3(0.1, 0, 0.4);
+  std::vector<RenderMesh> bare{tube(), limb}, painted = bare;
+  for (RenderMesh& m : painted) std::fill(m.texture.data.begin(), m.texture.data.end(), std::uint8_t{128});
+  for (RenderMesh& m : bare) {
+    m.texture = {};
+    m.uv.clear();
+    m.colour = {0.2159, 0.2159, 0.2159};  // linear light of 128
+  }
+  PreviewOptions o = kSmall;
+  o.samples = 4;
+  const Image one = render(bare, o), many = render(painted, o);
+  int most = 0;
+  for (std::size_t i = 0; i < one.data.size(); ++i) most = std::max(most, std::abs(one.data[i] - many.data[i]));
+  EXPECT_LE(most, 6);
+}
+
 TEST(Preview, refuses_what_it_cannot_draw) {
   const auto refused = [](RenderMesh m, PreviewOptions o = kSmall) {
     const auto picture = render_preview(std::span(&m, 1), o);
