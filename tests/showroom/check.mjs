@@ -58,7 +58,7 @@ try {
   await page.select('select[name="colour"]', '');
   await page.waitForFunction((n) => document.querySelectorAll('.card').length === n, {}, ofType);
 
-  await page.click('.card a');
+  await page.locator('.card a').click(); // tries again where the grid is drawn anew just then
   await page.waitForSelector('#stage');
   await shown(page);
   expect(page.url().includes('/item/'), 'an item opens on its own page, in 3D');

@@ -17,6 +17,12 @@ using ::testing::HasSubstr;
 using namespace vitrine;
 namespace fs = std::filesystem;
 
+/// Shared with the processes that are forked.
+struct AtWork {
+  std::atomic<int> last{0};     ///< the process that began an item last
+  std::atomic<int> started{0};  ///< items so far
+};
+
 namespace {
 
 constexpr int count = 16;
@@ -26,10 +32,15 @@ std::string content_of(const std::string& sku, const std::string& night) {
   return std::string(length, sku.back()) + night + "end";
 }
 
-/// Shared with the processes that are forked: who is at work just now.
-std::atomic<int>* shared_worker() {
-  void* page = ::mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  return page == MAP_FAILED ? nullptr : new (page) std::atomic<int>(0);
+AtWork* shared_memory() {
+  void* page = ::mmap(nullptr, sizeof(AtWork), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  return page == MAP_FAILED ? nullptr : new (page) AtWork;
+}
+
+long microseconds() {
+  timespec t;
+  ::clock_gettime(CLOCK_MONOTONIC, &t);
+  return t.tv_sec * 1'000'000L + t.tv_nsec / 1000;
 }
 
 }  // namespace
@@ -43,12 +54,13 @@ class Killed : public CatalogScratch {
       skus.push_back(std::string(i % 5 == 3 ? "refuse-" : "item-") + static_cast<char>('a' + i));
     list = items(skus);
     options.jobs = 3;
-    worker = shared_worker();
-    ASSERT_NE(worker, nullptr);
+    at_work = shared_memory();
+    ASSERT_NE(at_work, nullptr);
   }
   ItemFunction converter(const std::string& night) const {
     return [this, night](const CatalogItem& item, const std::string& dir) {
-      *worker = ::getpid();
+      at_work->last = ::getpid();
+      ++at_work->started;
       const std::string text = content_of(item.sku, night);
       std::ofstream out(fs::path(dir) / "model.txt", std::ios::binary);
       out.write(text.data(), static_cast<std::streamsize>(length / 2)).flush();
@@ -74,7 +86,7 @@ class Killed : public CatalogScratch {
     EXPECT_TRUE(whole == 0 || whole == count) << whole;
   }
   std::vector<CatalogItem> list;
-  std::atomic<int>* worker = nullptr;
+  AtWork* at_work = nullptr;
 };
 
 /// A process' state as the kernel tells it; empty when it has ended, which it may do while it is being read.
@@ -88,17 +100,11 @@ std::string stat_of(pid_t process) {
 }
 
 TEST_F(Killed, at_200_moments_the_next_run_leaves_the_same_bytes_as_one_that_was_never_disturbed) {
-  const timespec begin = [] {
-    timespec t;
-    ::clock_gettime(CLOCK_MONOTONIC, &t);
-    return t;
-  }();
+  const long begin = microseconds();
   night("new");
-  timespec end;
-  ::clock_gettime(CLOCK_MONOTONIC, &end);
+  const long usual = microseconds() - begin;
   const auto undisturbed = tree(root / "out");
   ASSERT_EQ(undisturbed.count("report.html"), 1u);
-  const long usual = (end.tv_sec - begin.tv_sec) * 1'000'000 + (end.tv_nsec - begin.tv_nsec) / 1000;
 
   std::mt19937 random(1);
   int runs_killed = 0, workers_killed = 0, unfinished = 0;
@@ -107,21 +113,26 @@ TEST_F(Killed, at_200_moments_the_next_run_leaves_the_same_bytes_as_one_that_was
     fs::remove_all(root / "out");
     if (round % 4 == 0) night("old");
     const bool kill_worker = round % 3 == 0;
-    *worker = 0;
+    at_work->last = at_work->started = 0;
     const pid_t runner = ::fork();
     ASSERT_GE(runner, 0);
     if (runner == 0) {
       night("new");
       ::_exit(0);
     }
-    const long moment = std::uniform_int_distribution<long>(0, usual)(random);
-    for (long waited = 0; waited < moment; waited += 500) {
-      ::usleep(static_cast<useconds_t>(std::min<long>(500, moment - waited)));
+    // So many items into the run, and a little later: on a busy machine, times alone would fall after its end.
+    const int items_in = std::uniform_int_distribution<int>(0, count)(random);
+    const long later = std::uniform_int_distribution<long>(0, usual / 8)(random);
+    const long too_late = microseconds() + 60'000'000;
+    for (long until = 0; until == 0 || microseconds() < until;) {
+      if (until == 0 && at_work->started >= items_in) until = microseconds() + later;
+      ASSERT_LT(microseconds(), too_late) << "no item begins any more";
+      ::usleep(200);
       look_at(list[random() % list.size()]);
     }
     if (kill_worker) {
       // A number may have been given to another process by now: only a child of the run is ours to kill.
-      const pid_t victim = *worker;
+      const pid_t victim = at_work->last;
       const std::string stat = victim > 0 ? stat_of(victim) : "";
       if (stat.find(") R " + std::to_string(runner) + " ") != std::string::npos ||
           stat.find(") S " + std::to_string(runner) + " ") != std::string::npos ||
