@@ -215,27 +215,27 @@ class View {
     return lights_.see(s.start, s.normal, s.baked, px, py);  // a thin part that no lighting point met
   }
 
-  /// No lighting point near the pixel saw the subject, so no ray within it will; parts thinner than that are lost.
-  bool empty_around(int x, int y) const {
+  /// Whether `holds` of the lighting point at the pixel and of all around it.
+  template <class F>
+  bool all_around(int x, int y, F&& holds) const {
     const int i = x / kStep, j = y / kStep;
     for (int v = std::max(0, j - 1); v <= std::min(rows_ - 1, j + 1); ++v)
       for (int u = std::max(0, i - 1); u <= std::min(columns_ - 1, i + 1); ++u)
-        if (points_[static_cast<std::size_t>(v) * columns_ + u].mesh != std::numeric_limits<unsigned>::max())
-          return false;
+        if (!holds(points_[static_cast<std::size_t>(v) * columns_ + u])) return false;
     return true;
+  }
+
+  /// No lighting point near the pixel saw the subject, so no ray within it will; parts thinner than that are lost.
+  bool empty_around(int x, int y) const {
+    return all_around(x, y, [](const LightPoint& p) { return p.mesh == std::numeric_limits<unsigned>::max(); });
   }
 
   /// All lighting points near the pixel lie on one surface of one colour: a single ray shows what many would.
   bool smooth_around(int x, int y) const {
-    const int i = x / kStep, j = y / kStep;
-    const LightPoint& own = points_[static_cast<std::size_t>(j) * columns_ + i];
+    const LightPoint& own = points_[static_cast<std::size_t>(y / kStep) * columns_ + x / kStep];
     if (own.mesh == std::numeric_limits<unsigned>::max() || !meshes_[own.mesh].texture.empty()) return false;
-    for (int v = std::max(0, j - 1); v <= std::min(rows_ - 1, j + 1); ++v)
-      for (int u = std::max(0, i - 1); u <= std::min(columns_ - 1, i + 1); ++u)
-        if (!(same_surface(points_[static_cast<std::size_t>(v) * columns_ + u], own.point, own.normal, own.mesh,
-                           own.inner) > 0))
-          return false;
-    return true;
+    return all_around(
+        x, y, [&](const LightPoint& p) { return same_surface(p, own.point, own.normal, own.mesh, own.inner) > 0; });
   }
 
   Eigen::Vector4f look(const Vec2& at, const std::optional<Seen>& s, int px, int py) const {
